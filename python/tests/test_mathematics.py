@@ -140,3 +140,23 @@ def test_a_maxwell_element_responds_as_its_dynamic_stiffness_says():
     assert np.isclose(found["F_mount:h1"], abs(element * x), rtol=1e-12)
     assert np.isclose(found["power_mount:mean"], 0.5 * 1.3 * element.imag * abs(x) ** 2, rtol=1e-12)
     assert len(slapstick.orbit(model).multipliers) == 3
+
+
+def test_a_jenkins_element_has_the_describing_function_of_its_loop():
+    """A body so heavy that it swings as a sine of amplitude a: an error of the order of 1 / m."""
+    a, k, f, m, omega = 0.8, 3.0, 0.9, 1e9, 1.3
+    model = slapstick.Model.from_toml(
+        f'name = "pad"\nomega = {omega}\n[[coordinate]]\nname = "x"\nmass = {m}\n'
+        f'[[spring]]\nbetween = ["x", "ground"]\nstiffness = {m}\n'
+        f'[[jenkins]]\nname = "pad"\nbetween = ["x", "ground"]\nstiffness = {k}\nlimit = {f}\n'
+        f'[[force]]\non = "x"\namplitude = {a * m * (omega**2 - 1)}\n'
+    )
+    assert model.state_names == ["x", "v", "s_pad", "v_s_pad"]
+    start = {"v": -a * omega}
+    found = slapstick.measure(model, "F_pad:h1,power_pad:mean,x:max", state=start, transient=2)
+    turn = np.arccos(1 - 2 * f / (k * a))  # it slips from here to the turn
+    in_phase = k * a / np.pi * (turn - 0.5 * np.sin(2 * turn))
+    lost = 4 * f * (a - f / k)
+    assert np.isclose(found["x:max"], a, rtol=1e-7)
+    assert np.isclose(found["F_pad:h1"], np.hypot(in_phase, lost / (np.pi * a)), rtol=1e-7)
+    assert np.isclose(found["power_pad:mean"], lost * omega / (2 * np.pi), rtol=1e-7)

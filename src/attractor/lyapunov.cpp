@@ -32,7 +32,7 @@ class Contraction {
   /// @param mode  at the start: what it holds still is forgotten there
   Contraction(const System& system, ModeId mode) : system_(system), frame_(system.compiled().frame()) {
     for (Index i = 0; i < 2 * frame_.n; ++i)
-      if (ranges::find(frame_.inner, i - frame_.n, &mode::InnerRow::own) == frame_.inner.end()) numbers_.push_back(i);
+      if (i < frame_.n || !frame_.rate_follows(static_cast<int>(i) - frame_.n)) numbers_.push_back(i);
     for (int i = 0; i < frame_.d; ++i) forgets_ = forgets_ || system_.compiled().mode(mode).steady(i);
   }
 
@@ -86,7 +86,9 @@ class Contraction {
     const mode::Mode& before = system_.compiled().mode(motion.segment().mode);
     for (int i = 0; i < frame_.d; ++i)
       if (after.steady(i) && !before.steady(i)) return true;
-    return false;
+    return ranges::any_of(frame_.sliders, [&](const mode::SliderRow& row) {  // one that slips forgets where it was
+      return !row.rests(after.states().pieces) && row.rests(before.states().pieces);
+    });
   }
 
   const System& system_;

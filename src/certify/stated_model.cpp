@@ -83,7 +83,7 @@ std::string stated(const CompliantStop& stop) {
 }
 
 std::string stated(const Characteristic& bent) {
-  const auto& [name, a, b, over, corners, slope_below, slope_above, ratio] = bent;
+  const auto& [name, a, b, over, corners, slope_below, slope_above, ratio, inner] = bent;
   std::string text = "polyline" + number(a) + number(b);
   text += over == Characteristic::Over::displacement ? " displacement"
           : over == Characteristic::Over::velocity   ? " velocity"
@@ -110,6 +110,8 @@ std::string not_stated(const Model& model) {
     if (spring.inner >= 0) return "Maxwell elements (" + in_quotes(spring.name) + ")";
   for (const Force& force : model.forces)
     if (force.harmonic > most_harmonic) return "forces of a harmonic beyond 1000000";
+  for (const Characteristic& bent : model.characteristics)
+    if (bent.inner >= 0) return "Jenkins elements (" + in_quotes(bent.name) + ")";
   for (const Characteristic& bent : model.characteristics)
     if (bent.corners.size() > most_corners) return "more than 1000 corners (" + in_quotes(bent.name) + ")";
   for (const Stop& stop : model.stops)

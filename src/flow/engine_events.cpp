@@ -175,7 +175,12 @@ void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
   const int d = system_->frame().d;
   const mode::Guard::Entry* most = nullptr;
   for (const mode::Guard::Entry& entry : guard.entries) {
-    if (entry.column >= 2 * d || X_.data()[entry.column] == 0.0 || here_->steady(entry.column % d)) continue;
+    if (entry.column >= 2 * d || here_->steady(entry.column % d)) continue;
+    if (entry.column < d && system_->frame().rate_follows(entry.column)) {  // a slider: no body moves with it
+      most = &entry;
+      break;
+    }
+    if (X_.data()[entry.column] == 0.0) continue;
     if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
   }
   if (most == nullptr) return;
@@ -209,11 +214,15 @@ void Engine::cross(int guard, bool graze) {
 
 /// The mode that may start now, from which a new flight begins.
 void Engine::start_mode() {
+  const mode::Frame& frame = system_->frame();
+  if (here_ != nullptr) frame.set_sliders(here_->states().pieces, X_.data());
   note_magnitude(X_);
   const ModeId next = select_mode(*system_, X_.data(), magnitude_.data(), orders_);
   if (next < 0) fail("no contact mode fits the state (a contact force is inconsistent)");
   mode_ = next;
   here_ = &system_->mode(mode_);
+  frame.set_slider_rates(here_->states().pieces, X_.data());
+  if (!frame.sliders.empty()) note_magnitude(X_);
   begin_flight();
 }
 

@@ -210,7 +210,9 @@ std::vector<Motion::Strike> separated_strikes(const mode::Frame& frame, std::spa
 
 bool passes_smoothly(const Model& model, const Guard& guard) {
   if (!mode::of_crossing(guard.kind)) return false;
-  return !mode::of_corner(guard.kind) || model.characteristics[guard.contact].over != Characteristic::Over::zones;
+  if (!mode::of_corner(guard.kind)) return true;
+  const Characteristic& one_of = model.characteristics[guard.contact];  // a slider forgets how it was stretched
+  return one_of.over != Characteristic::Over::zones && one_of.inner < 0;
 }
 
 bool share_mass(const mode::Frame& frame, const Guard& a, const Guard& b) {

@@ -47,6 +47,16 @@ Candidates compliant_candidates(double depth, const CompliantStop& stop) {
   return can_detach ? Candidates{{1, 2}, 2} : Candidates{{1}, 1};
 }
 
+/// A slider at its limit slips if the pair goes on beyond the limit, and rests if not, as where the pair is held.
+Candidates in_order(const CompiledSystem& system, int i, const double* X, Candidates found) {
+  const mode::SliderRow* const slider = system.frame().slider(i);
+  if (slider == nullptr) return found;
+  const double velocity = slider->pair.sign * X[system.frame().u(slider->pair.own)];
+  const bool high = std::max(found.digit[0], found.digit[1]) == 2, slips = high ? velocity > 0.0 : velocity < 0.0;
+  if ((found.digit[0] != 1) != slips) std::swap(found.digit[0], found.digit[1]);
+  return found;
+}
+
 /// At a corner, within twice the bound that `start_order` allows, also the piece on its other side.
 Candidates piece_candidates(const CompiledSystem& system, int i, const double* X, const double* magnitude) {
   const auto& corners = system.frame().characteristics[static_cast<std::size_t>(i)].corners;
@@ -59,8 +69,9 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
     return std::abs(row_product(row, X)) <= 2.0 * rest_factor * noise;
   };
   const auto digit = static_cast<std::int16_t>(piece);
-  if (piece < corners.size() && near(piece)) return {{digit, static_cast<std::int16_t>(digit + 1)}, 2};
-  if (piece > 0 && near(piece - 1)) return {{digit, static_cast<std::int16_t>(digit - 1)}, 2};
+  if (piece < corners.size() && near(piece))
+    return in_order(system, i, X, {{digit, static_cast<std::int16_t>(digit + 1)}, 2});
+  if (piece > 0 && near(piece - 1)) return in_order(system, i, X, {{digit, static_cast<std::int16_t>(digit - 1)}, 2});
   return {{digit}, 1};
 }
 

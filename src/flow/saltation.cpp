@@ -126,6 +126,9 @@ void hold_still(const Engine& engine, Eigen::MatrixXd& tangents) {
     if (mode.steady(i)) tangents.row(frame.u(i)).setZero();
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
     if (mode.states().stops[i] == mode::StopState::closed) tangents.row(frame.stops[i].own).setZero();
+  for (const mode::SliderRow& row : frame.sliders)
+    if (!row.rests(mode.states().pieces))
+      tangents.row(row.own) = row.displacement.head(frame.d) * tangents.topRows(frame.d);
 }
 
 bool differentiable(const Engine& engine) {

@@ -59,7 +59,7 @@ Translations::Translations(const System& system) : system_(system) {
   free_ = unseen.free;
   directions_ = (unseen.basis.array().abs() > dependent).select(unseen.basis, 0.0);
   for (Index i = 0; i < 2 * frame.n; ++i) {
-    const bool follows = ranges::find(frame.inner, i - frame.n, &mode::InnerRow::own) != frame.inner.end();
+    const bool follows = i >= frame.n && frame.rate_follows(static_cast<int>(i) - frame.n);
     if (!follows && ranges::find(free_, i) == free_.end()) kept_.push_back(i);
   }
 }

@@ -170,7 +170,7 @@ struct Definition {
 /// What an observable's expression calls the gap of a stop: "gap_wall".
 [[nodiscard]] std::string gap_name(const std::string& stop);
 
-/// What the inner coordinate of a Maxwell element is called: "s_mount".
+/// What the inner coordinate of a Maxwell or Jenkins element is called: "s_mount".
 [[nodiscard]] std::string inner_name(const std::string& element);
 
 /// "spring 2" or "stop 'wall'".

@@ -94,20 +94,33 @@ void ModelBuilder::add_links(Model& model) {
   });
 }
 
-/// A spring between the ends and, in series with it, an inner coordinate on a damper.
-void ModelBuilder::add_maxwells(Model& model) {
+/// The inner coordinate of an element, whose numbers are positive.
+int ModelBuilder::add_inner(Model& model, const Part& part) {
+  for (const auto& [key, scalar] : part.fields)
+    if (const Dual value = field(part, key); !(value.value >= smallest && value.value <= largest))
+      throw InputError(definition_.place(scalar.line),
+                       where(key) + " = " + shown(value.value) + " is not a positive number in [1e-50, 1e50]");
+  origins_["coordinate"].push_back({kind_, index_});
+  model.coordinates.push_back({inner_name(part.name), 0.0});
+  return model.size() - 1;
+}
+
+/// Maxwell's: a spring between the ends and, in series with it, an inner coordinate on a damper. Jenkins': a polyline
+/// over y - s that is flat outside +-limit / stiffness, and s a slider.
+void ModelBuilder::add_elements(Model& model) {
   each("maxwell", [&](const Part& part) {
-    for (const char* key : {"stiffness", "damping"})
-      if (const Dual value = field(part, key); !(value.value >= smallest && value.value <= largest))
-        throw InputError(definition_.place(part.fields.find(key)->second.line),
-                         where(key) + " = " + shown(value.value) + " is not a positive number in [1e-50, 1e50]");
-    const int inner = model.size();
-    for (const char* kind : {"coordinate", "spring", "damper"}) origins_[kind].push_back({kind_, index_});
-    model.coordinates.push_back({inner_name(part.name), 0.0});
+    const int inner = add_inner(model, part);
+    for (const char* kind : {"spring", "damper"}) origins_[kind].push_back({kind_, index_});
     model.springs.push_back({end(part.a), end(part.b), written(part, "stiffness"), part.name});
     model.springs.back().ratio = ratio_of(part);
     model.springs.back().inner = inner;
     model.dampers.push_back({inner, ground, written(part, "damping")});
+  });
+  each("jenkins", [&](const Part& part) {
+    const int inner = add_inner(model, part);
+    const Dual limit = field(part, "limit"), at = limit / field(part, "stiffness");
+    add(model, bent(part, part.name, Characteristic::Over::displacement), {{{-at, -limit}, {at, limit}}, {}, {}});
+    model.characteristics.back().inner = inner;
   });
 }
 
@@ -273,7 +286,7 @@ Model ModelBuilder::assembled() {
   add_forces(model);
   add_impulses(model);
   add_links(model);
-  add_maxwells(model);
+  add_elements(model);
   add_inertia(model);
   add_contacts(model);
   add_matrices(model);

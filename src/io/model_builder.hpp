@@ -135,7 +135,8 @@ class ModelBuilder {
   [[nodiscard]] std::vector<Term> band(const Part& part) const;
   [[nodiscard]] int signal(const Part& part) const;
   void add_links(Model& model);
-  void add_maxwells(Model& model);
+  int add_inner(Model& model, const Part& part);
+  void add_elements(Model& model);
   /// The force that the motion of the surroundings passes on through a spring (`order` 0) or a damper (1).
   BaseMotion add_motion(Model& model, const Part& part, std::string_view strength, int order);
   /// `strength` times the derivative of a base's motion of this order, as forces on a coordinate.

@@ -68,6 +68,14 @@ coefficient = "2 * damping_ratio"
 #stiffness = 3
 #damping = 2
 
+# A spring and a slider in series, which slips at the limit of the force; s_joint is the way that it has slipped.
+#[[jenkins]]
+#name = "joint"
+#between = ["x1", "ground"]
+#ratio = [1, 1]
+#stiffness = 3
+#limit = 0.5
+
 # amplitude * sin(harmonic * omega * t + phase); harmonic 0 is a constant force of size amplitude.
 [[force]]
 on = "x1"

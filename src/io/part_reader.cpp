@@ -43,7 +43,7 @@ class PartReader {
     for (std::size_t i = 0; i < list->items.size(); ++i) parts.push_back(part(list->items[i], rule, i));
     if (kind == "coordinate") return read_coordinates(std::move(parts));
     if (kind == "base") keep_bases(parts);
-    if (kind == "maxwell") keep_inner(parts);
+    if (kind == "maxwell" || kind == "jenkins") keep_inner(kind, parts);
     if (kind == "observable") check_observables(parts);
   }
 
@@ -102,10 +102,10 @@ class PartReader {
     }
   }
 
-  /// The inner coordinates of Maxwell elements: numbers of the state behind those of the coordinates.
-  void keep_inner(const std::vector<Part>& parts) {
+  /// The inner coordinates of elements: numbers of the state behind those of the coordinates.
+  void keep_inner(const std::string& kind, const std::vector<Part>& parts) {
     for (const Part& part : parts) {
-      const std::string s = inner_name(part.name), where = "maxwell " + in_quotes(part.name);
+      const std::string s = inner_name(part.name), where = kind + " " + in_quotes(part.name);
       for (const std::string& name : {s, velocity_name(s)}) {
         if (std::find(states_.begin(), states_.end(), name) != states_.end())
           tree_.fail(part.line, where, "name " + in_quotes(name) + " is used twice");
@@ -216,7 +216,7 @@ class PartReader {
     read_ends(node, rule, where, part);
     if (rule.ends == Ends::between)
       demand_one_home(part, node.find("between")->line, where + ": between",
-                      rule.kind == "maxwell" ? "its stretch" : "the gap or the sliding");
+                      rule.kind == "maxwell" || rule.kind == "jenkins" ? "its stretch" : "the gap or the sliding");
     read_fields(node, rule, where, part);
     if (rule.kind == "signal") read_signal(tree_, node, where, definition_.source, part);
     check_signal_name(node, where);

@@ -54,7 +54,15 @@ std::vector<PartRule> bodies() {
         below,
         above,
         {"name", false, Holds::text}}},
+  };
+}
+
+/// A spring in series with something.
+std::vector<PartRule> elements() {
+  const FieldRule ratio{"ratio", false, Holds::ratio};
+  return {
       {"maxwell", true, Ends::between, {ratio, {"stiffness", true}, {"damping", true}}},
+      {"jenkins", true, Ends::between, {ratio, {"stiffness", true}, {"limit", true}}},
   };
 }
 
@@ -124,7 +132,7 @@ std::vector<PartRule> contacts() {
 const std::vector<PartRule>& part_rules() {
   static const std::vector<PartRule> rules = [] {
     std::vector<PartRule> all = bodies();
-    for (auto* more : {loads, contacts})
+    for (auto* more : {elements, loads, contacts})
       for (PartRule& rule : more()) all.push_back(std::move(rule));
     return all;
   }();

@@ -222,11 +222,12 @@ std::optional<PhysicalUnits> physical_units(const Definition& definition, const 
     units.state.push_back(column(text, part.line));
     units.state.push_back(column(text + "/" + time.unit, part.line));
   }
-  for (const auto& part : definition.of("maxwell")) {
-    const std::string own = unit_of_inner(definition, part), &text = own.empty() ? length.unit : own;
-    units.state.push_back(column(text, part.line));
-    units.state.push_back(column(text + "/" + time.unit, part.line));
-  }
+  for (const char* kind : {"maxwell", "jenkins"})
+    for (const auto& part : definition.of(kind)) {
+      const std::string own = unit_of_inner(definition, part), &text = own.empty() ? length.unit : own;
+      units.state.push_back(column(text, part.line));
+      units.state.push_back(column(text + "/" + time.unit, part.line));
+    }
   for (const auto& part : definition.of("observable")) units.observables.push_back(column(*unit_text(part), part.line));
   return units;
 }

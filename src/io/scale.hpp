@@ -13,7 +13,7 @@ void check_units(const Definition& definition);
 /// The unit of these powers of length, time and mass, as a product of those of [scale]: "mm/s^2".
 [[nodiscard]] std::string unit_of_scale(const Definition& definition, const std::array<int, 3>& powers);
 
-/// The unit that the coordinates at the ends of a Maxwell element have: that of its inner coordinate. "" if they have
+/// The unit that the coordinates at the ends of an element have: that of its inner coordinate. "" if they have
 /// none, or several, or a ratio.
 [[nodiscard]] std::string unit_of_inner(const Definition& definition, const Part& element);
 

@@ -106,10 +106,11 @@ StatedUnits ModelDefinition::stated_units() const {
     stated.coordinates.push_back(none ? "" : own->second);
     if (!none && parse_unit(own->second).powers != Unit{}.powers) units.push_back(parse_unit(own->second));
   }
-  for (const Part& element : definition_->of("maxwell")) {
-    const std::string own = unit_of_inner(*definition_, element);
-    stated.coordinates.push_back(own == "1" || !definition_->scale.empty() ? "" : own);
-  }
+  for (const char* kind : {"maxwell", "jenkins"})
+    for (const Part& element : definition_->of(kind)) {
+      const std::string own = unit_of_inner(*definition_, element);
+      stated.coordinates.push_back(own == "1" || !definition_->scale.empty() ? "" : own);
+    }
   if (!definition_->scale.empty()) return stated;
   for (const Parameter& parameter : parameters())
     if (!parameter.unit.empty() && parse_unit(parameter.unit).powers != Unit{}.powers)

@@ -16,6 +16,13 @@ template <class Link>
   return row;
 }
 
+/// The same of y itself.
+template <class Link>
+[[nodiscard]] RowVector outer_row(int n, Link link) {
+  link.inner = -1;
+  return pair_row(n, link);
+}
+
 [[nodiscard]] Matrix mass_matrix(const Model& model);
 [[nodiscard]] Matrix damping_matrix(const Model& model);
 [[nodiscard]] Matrix stiffness_matrix(const Model& model);

@@ -150,6 +150,11 @@ Matrix Differentiator::system() {
     if (outline_.steady[static_cast<std::size_t>(i)]) acceleration_rate_.row(i).setZero();
   }
   A.middleRows(frame_.d, frame_.d) = acceleration_rate_;
+  for (const SliderRow& row : frame_.sliders) {
+    A.row(row.own).setZero();
+    A.row(frame_.u(row.own)).setZero();
+    if (!row.rests(outline_.states.pieces)) A.row(frame_.u(row.own)) = row.pair.sign * A.row(frame_.u(row.pair.own));
+  }
   return A;
 }
 
@@ -206,6 +211,8 @@ RowVector Differentiator::limit_rate(const HeldPair& pair) const {
 
 RowVector Differentiator::corner_rate(const Guard& guard) const {
   const bool above = guard.kind == GuardKind::corner_above;
+  const SliderRow* const slider = frame_.slider(guard.contact);
+  if (slider != nullptr && !slider->rests(outline_.states.pieces)) return RowVector::Zero(frame_.size());
   const int k = outline_.states.pieces[guard.contact] - (above ? 0 : 1);
   RowVector row = -moved(frame_.characteristics[static_cast<std::size_t>(guard.contact)].corners[k]);
   row[frame_.one()] += rate_.characteristics[guard.contact].corners[k].at;
@@ -269,6 +276,8 @@ FrameDerivative::FrameDerivative(const Model& model, const Model& rate, const Fr
     own("compliant stop", model.compliant_stops[i], frame.compliant[i], rate.compliant_stops[i].clearance);
   for (std::size_t i = 0; i < model.frictions.size(); ++i)
     drifts.set("friction contact", model.frictions[i], frame.frictions[i], rate.frictions[i].belt_speed);
+  for (const SliderRow& row : frame.sliders)
+    drifts.set("characteristic", model.characteristics[static_cast<std::size_t>(row.characteristic)], row.pair, 0.0);
 
   // free = W M^{-1} force;  force = load X - C q' - K q,  q = W^{-1} (p + shift),  q' = W^{-1} (u + drift)
   const Eigen::Index n = frame.n;

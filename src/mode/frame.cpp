@@ -31,6 +31,7 @@ Frame::Frame(const Model& model) : n(model.size()) {
   choose_displacements(model);
   set_dynamics(model);
   set_characteristics(model);
+  add_sliders(model);
 }
 
 void Frame::choose_displacements(const Model& model) {
@@ -38,6 +39,7 @@ void Frame::choose_displacements(const Model& model) {
   stops = numbering.stops;
   compliant = numbering.compliant;
   frictions = numbering.frictions;
+  for (const ContactRow& pair : numbering.sliders) sliders.push_back({0, 0, pair, {}});
   d = static_cast<int>(numbering.numbers.size());
   W.resize(d, n);
   shift.resize(d);
@@ -231,6 +233,7 @@ void Frame::enter(const double* state, double* X) const {
     if ((ratio || drift[i] != 0.0) && std::abs(X[u(i)]) <= error * speed) X[u(i)] = 0.0;  // so is rest on a belt
   }
   set_inner_rates(X);
+  draw_sliders(X);
 }
 
 PeriodicDrive::PeriodicDrive(const Model& model, const Frame& frame) : model_(model), frame_(frame) {
@@ -365,13 +368,15 @@ void Frame::refresh(double* X) const {
 
 void Frame::leave(const double* p, const double* velocity, double* state) const {
   for (int i = 0; i < n; ++i) {
-    double q = 0.0, rate = 0.0;
+    double q = 0.0, rate = 0.0, speed = 0.0;
     for (int j = 0; j < n; ++j) {
+      const double term = W_inverse(i, j) * (velocity[j] + drift[j]);
       q += W_inverse(i, j) * (p[j] + shift[j]);
-      rate += W_inverse(i, j) * (velocity[j] + drift[j]);
+      rate += term;
+      speed += std::abs(term);
     }
     state[2 * i] = q;
-    state[2 * i + 1] = rate;
+    state[2 * i + 1] = std::abs(rate) <= structural_zero * speed ? 0.0 : rate;
   }
 }
 

@@ -59,6 +59,20 @@ struct InnerRow {
   double settling = 0.0;
 };
 
+/// The slider of a Jenkins element: a characteristic over z = y - s. y' is the rate of a number, as the velocity of a
+/// friction contact is. Where the slider rests p_s' = 0, where it slips p_s' = y': p_s needs no u_s, which is for
+/// tables.
+struct SliderRow {
+  int characteristic = 0, own = 0;
+  ContactRow pair;               ///< with no drift
+  RowVector displacement;        ///< y over X
+  double low = 0.0, high = 0.0;  ///< the corners, of z
+
+  [[nodiscard]] bool rests(const std::vector<int>& pieces) const {
+    return pieces[static_cast<std::size_t>(characteristic)] == 1;
+  }
+};
+
 /// One piece of a characteristic: force = slope value + offset; in a zone slope times the velocity.
 struct Piece {
   double slope = 0.0, offset = 0.0;
@@ -87,6 +101,7 @@ struct Frame {
   std::vector<ContactRow> stops, frictions, compliant;
   std::vector<PairRows> characteristics;
   std::vector<InnerRow> inner;
+  std::vector<SliderRow> sliders;
   Matrix mass_inverse;  ///< d x d: W M^{-1} W^T
   Matrix free;          ///< d x m: u' = free . X with no contact force
   Matrix free_size;     ///< the sums of the sizes of the terms that each of its entries was made of
@@ -136,6 +151,16 @@ struct Frame {
   void enter(const double* state, double* X) const;
   /// Sets the rates of the inner coordinates by the displacements.
   void set_inner_rates(double* X) const;
+  /// The slider that a characteristic is over, or null.
+  [[nodiscard]] const SliderRow* slider(int characteristic) const;
+  /// Is u_i no number of its own, but follows from others?
+  [[nodiscard]] bool rate_follows(int i) const;
+  /// Sets the rates of sliders in a mode of these pieces.
+  void set_slider_rates(const std::vector<int>& pieces, double* X) const;
+  /// Sets the sliders that slip in a mode of these pieces to their corner, from which rounding would lead them away.
+  void set_sliders(const std::vector<int>& pieces, double* X) const;
+  /// A slider that is drawn beyond a corner has slipped to it, at once.
+  void draw_sliders(double* X) const;
   /// Sets the velocities (displacements) of all numbers of the pair of displacement i by that of i.
   void match_velocities(int i, double* X) const;
   void match_displacements(int i, double* X) const;
@@ -159,7 +184,8 @@ struct Frame {
   [[nodiscard]] std::vector<int> lines_at(Instant t) const;
   /// The first instant after t at which the slope of a signal jumps, or SignalTable::never.
   [[nodiscard]] Instant next_knot(Instant t) const;
-  /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities.
+  /// Writes the user's state (x_1, v_1, ..) of X; from the first n displacements and velocities. A velocity that is the
+  /// rounding of a sum is zero: a body at rest whose number is not among the first n is read back at rest.
   void leave(const double* X, double* state) const { leave(X, X + d, state); }
   void leave(const double* p, const double* velocity, double* state) const;
 
@@ -170,6 +196,7 @@ struct Frame {
   void choose_displacements(const Model& model);
   void set_dynamics(const Model& model);
   void set_characteristics(const Model& model);
+  void add_sliders(const Model& model);
   void choose_inner(const Model& model, const Matrix& K, const Matrix& C);
   void add_inner_accelerations(Matrix& acceleration, Matrix& size) const;
   [[nodiscard]] RowVector corner_row(const RowVector& pair, const RowVector& value, bool rated, double at) const;

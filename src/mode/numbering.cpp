@@ -24,7 +24,7 @@ ContactRow find_or_add(Numbers& all, const Number& wanted) {
   return {static_cast<int>(all.size()) - 1, 1.0};
 }
 
-/// A friction contact shares the velocity of any displacement of its pair, whatever its shift.
+/// A friction contact, or a slider, shares the velocity of any displacement of its pair, whatever its shift.
 ContactRow find_or_add_velocity(Numbers& all, const RowVector& row, double drift) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double sign = same_direction(all[i].row, row);
@@ -164,6 +164,16 @@ void turn_nearest(Numbers& all, const std::vector<Pair>& pairs, const std::vecto
   }
 }
 
+/// A contact with no stop of its own, by the nearest number of its pair if that has the same rate.
+ContactRow with_nearest(const Numbers& all, const std::vector<Pair>& pairs, ContactRow contact) {
+  for (const Pair& pair : pairs) {
+    const double sign = same_direction(all[pair.nearest].row, all[contact.own].row);
+    if (sign != 0.0 && all[pair.nearest].drift == sign * all[contact.own].drift)
+      contact = {pair.nearest, sign * contact.sign};
+  }
+  return contact;
+}
+
 }  // namespace
 
 int same_direction(const RowVector& a, const RowVector& b) {
@@ -194,23 +204,21 @@ Numbering::Numbering(const Model& model) {
     compliant.push_back(find_or_add(all, {pair_row(n, stop), stop.clearance}));
   for (const FrictionContact& contact : model.frictions)
     frictions.push_back(find_or_add_velocity(all, pair_row(n, contact), contact.belt_speed));
+  for (const Characteristic& one_of : model.characteristics)
+    if (one_of.inner >= 0) sliders.push_back(find_or_add_velocity(all, outer_row(n, one_of), 0.0));
   const Extent forces = extent_of_forces(model);
   std::vector<Pair> pairs = pairs_of(all, forces.length);
   const auto contacts = [&] {
     std::vector<ContactRow> rows = stops;
     rows.insert(rows.end(), compliant.begin(), compliant.end());
     rows.insert(rows.end(), frictions.begin(), frictions.end());
+    rows.insert(rows.end(), sliders.begin(), sliders.end());
     return rows;
   };
   choose(model, forces, all, contacts(), pairs);
-  for (ContactRow& contact : frictions) {  // one at rest shares the velocity of the nearest stop of its pair
-    for (const Pair& pair : pairs) {
-      const double sign = same_direction(all[pair.nearest].row, all[contact.own].row);
-      if (sign != 0.0 && all[pair.nearest].drift == sign * all[contact.own].drift)
-        contact = {pair.nearest, sign * contact.sign};
-    }
-  }
-  turn_nearest(all, pairs, {&stops, &compliant, &frictions});
+  for (std::vector<ContactRow>* rows : {&frictions, &sliders})  // one at rest shares the velocity of the nearest stop
+    for (ContactRow& contact : *rows) contact = with_nearest(all, pairs, contact);
+  turn_nearest(all, pairs, {&stops, &compliant, &frictions, &sliders});
   const std::vector<ContactRow> rows_of = contacts();
   for (const Pair& pair : pairs) {
     const auto owner = ranges::find(rows_of, pair.nearest, &ContactRow::own);
@@ -222,7 +230,7 @@ Numbering::Numbering(const Model& model) {
     numbers.push_back(all[order[i]]);
     place[order[i]] = static_cast<int>(i);
   }
-  for (std::vector<ContactRow>* rows : {&stops, &compliant, &frictions})
+  for (std::vector<ContactRow>* rows : {&stops, &compliant, &frictions, &sliders})
     for (ContactRow& contact : *rows) contact.own = place[contact.own];
 }
 

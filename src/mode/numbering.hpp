@@ -30,8 +30,9 @@ struct Numbering {
 
   std::vector<Number> numbers;  ///< those of the basis first, n of them
   std::vector<ContactRow> stops, compliant, frictions;
-  std::vector<int>
-      chosen;  ///< as Model::numbered_by: for each pair a contact (stops, compliant stops, frictions), or -1 for none
+  std::vector<ContactRow> sliders;  ///< the pair of each
+  /// As Model::numbered_by: for each pair a contact (stops, compliant stops, frictions, sliders), or -1 for none.
+  std::vector<int> chosen;
 };
 
 /// The family, its models numbered as the one at these values is.

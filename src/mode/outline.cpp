@@ -24,6 +24,7 @@ class Builder {
  private:
   void hold(Matrix& acceleration, Matrix& size);
   void note_steady(const Matrix& G);
+  void move_sliders();
   void arm_gap(int stop);
   void arm_compliant(int i);
   void arm_corners(int i);
@@ -77,6 +78,23 @@ void Builder::select_linear_system() {
     if (!out_.steady[i]) continue;
     out_.system.row(d_ + i).setZero();  // exactly
     out_.system_size.row(d_ + i).setZero();
+  }
+  move_sliders();
+}
+
+/// One that rests stays where it is; one that slips goes as its pair does.
+void Builder::move_sliders() {
+  for (const SliderRow& row : frame_.sliders) {
+    const bool rests = row.rests(out_.states.pieces);
+    const auto follow = [&](Matrix& of, double sign) {
+      of.row(row.own).setZero();
+      of.row(d_ + row.own).setZero();
+      if (rests) return;
+      of(row.own, d_ + row.pair.own) = sign;
+      of.row(d_ + row.own) = sign * of.row(d_ + row.pair.own);
+    };
+    follow(out_.system, row.pair.sign);
+    follow(out_.system_size, 1.0);
   }
 }
 
@@ -185,6 +203,12 @@ void Builder::arm_compliant(int i) {
 void Builder::arm_corners(int i) {
   const auto& corners = frame_.characteristics[static_cast<std::size_t>(i)].corners;
   const auto piece = static_cast<std::size_t>(out_.states.pieces[i]);
+  if (const SliderRow* const slips = frame_.slider(i); slips != nullptr && piece != 1) {
+    const bool above = piece == 0;
+    const RowVector velocity = frame_.velocity_row(slips->pair);
+    return out_.guards.push_back(
+        {above ? GuardKind::corner_above : GuardKind::corner_below, i, (above ? -1.0 : 1.0) * velocity});
+  }
   if (piece < corners.size()) out_.guards.push_back({GuardKind::corner_above, i, -corners[piece]});
   if (piece > 0) out_.guards.push_back({GuardKind::corner_below, i, corners[piece - 1]});
 }

@@ -19,8 +19,9 @@ bool Model::is_pressed(int friction) const {
 }
 
 bool Model::is_inner(int coordinate) const {
-  return coordinate != ground &&
-         std::any_of(springs.begin(), springs.end(), [&](const Spring& spring) { return spring.inner == coordinate; });
+  const auto has = [&](const auto& part) { return coordinate != ground && part.inner == coordinate; };
+  return std::any_of(springs.begin(), springs.end(), has) ||
+         std::any_of(characteristics.begin(), characteristics.end(), has);
 }
 
 bool Model::forced() const {

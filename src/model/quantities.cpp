@@ -78,7 +78,7 @@ void List::contacts() {
          [&](Kind kind) { return contact.normal.has_value() || kind != Kind::normal; });
   named(Of::compliant_stop, model_.compliant_stops);
   for (const Characteristic& one_of : model_.characteristics) {
-    const bool lossy = one_of.over != Characteristic::Over::displacement;
+    const bool lossy = one_of.over != Characteristic::Over::displacement || one_of.inner >= 0;
     each(Of::characteristic, number_++, one_of.name, [&](Kind kind) { return lossy || kind != Kind::power; });
   }
   links();

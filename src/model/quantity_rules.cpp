@@ -11,7 +11,7 @@ using Of = QuantityRule::Of;
 
 constexpr std::array known_rules = {
     QuantityRule{Of::coordinate, Kind::displacement, "NAME",
-                 "displacement of NAME; of s_PART the stretch of its damper"},
+                 "displacement of NAME; of s_PART the stretch of its damper or slider"},
     QuantityRule{Of::coordinate, Kind::velocity, "v_NAME", "velocity of NAME"},
     QuantityRule{Of::coordinate, Kind::acceleration, "a_NAME", "acceleration of NAME; impacts are impulses in it"},
     QuantityRule{Of::stop, Kind::gap, "gap_NAME", "gap of stop NAME"},
@@ -28,8 +28,9 @@ constexpr std::array known_rules = {
     QuantityRule{Of::compliant_stop, Kind::force, "F_NAME", "press of compliant stop NAME: 0 when it does not act"},
     QuantityRule{Of::compliant_stop, Kind::power, "power_NAME", "power that compliant stop NAME dissipates"},
     QuantityRule{Of::characteristic, Kind::relative, "w_NAME", "relative velocity of characteristic NAME"},
-    QuantityRule{Of::characteristic, Kind::force, "F_NAME", "force of characteristic NAME"},
-    QuantityRule{Of::characteristic, Kind::power, "power_NAME", "power that characteristic NAME dissipates"},
+    QuantityRule{Of::characteristic, Kind::force, "F_NAME", "force of characteristic or Jenkins element NAME"},
+    QuantityRule{Of::characteristic, Kind::power, "power_NAME",
+                 "power that characteristic or Jenkins element NAME dissipates"},
     QuantityRule{Of::spring, Kind::relative, "w_NAME", "relative velocity of spring NAME"},
     QuantityRule{Of::spring, Kind::force, "F_NAME", "force of spring or Maxwell element NAME"},
     QuantityRule{Of::spring, Kind::power, "power_NAME", "power that Maxwell element NAME dissipates"},

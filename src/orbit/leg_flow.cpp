@@ -9,6 +9,7 @@
 #include "base/ranges.hpp"
 #include "flow/collision.hpp"
 #include "flow/contact_state.hpp"
+#include "orbit/contact_jet.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -42,38 +43,13 @@ void push(const ModeSet& set, const Motion::Strike& strike, Jet& X) {
   }
 }
 
-/// Does it begin with a plastic impact that stands for all impacts of a chatter that follow?
-bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
-
-/// The contact states of the columns of an extended jet, with what the next mode holds still set to what it holds:
-/// velocities, zero or a belt's, and the gaps of closed stops, zero. A gap that is not one of the coordinates goes to
-/// zero the shortest way.
-Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
-  const mode::Frame& frame = set.frame();
-  Jet x(2 * frame.n, X.states, X.parameters);
-  x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
-  if (sums_impacts(next)) return x;
-  const mode::Outline& outline = set.mode(next.states).outline;
-  MatrixXd speeds(frame.d, 1 + X.parameters);  // and their derivatives by the parameters
-  speeds.col(0) = outline.held_speeds(frame.drift);
-  for (Index p = 0; p < X.parameters; ++p)
-    speeds.col(1 + p) = outline.held_speeds(set.frame_rate(static_cast<std::size_t>(p)).drift);
-  for (int i = 0; i < frame.n; ++i) {
-    if (!outline.steady[i]) continue;
-    x.all.row(frame.n + i).setZero();
-    x.value()[frame.n + i] = speeds(i, 0);
-    x.by_parameter().row(frame.n + i) = speeds.row(i).tail(X.parameters);
+/// The rates of sliders, which tables show.
+void set_slider_rates(const mode::Frame& frame, const Leg& leg, Jet& X) {
+  for (const mode::SliderRow& row : frame.sliders) {
+    auto rate = X.all.row(frame.u(row.own));
+    rate.setZero();
+    if (!row.rests(leg.states.pieces)) rate = row.pair.sign * X.all.row(frame.u(row.pair.own));
   }
-  const auto closed = [&](std::size_t i) { return next.states.stops[i] == mode::StopState::closed; };
-  for (std::size_t i = 0; i < frame.stops.size(); ++i) {
-    const int own = frame.stops[i].own;
-    if (!closed(i) || own < frame.n) continue;
-    const RowVectorXd row = frame.dependence.row(own);
-    x.all.topRows(frame.n) -= row.transpose() * X.all.row(own) / row.squaredNorm();
-  }
-  for (std::size_t i = 0; i < frame.stops.size(); ++i)
-    if (closed(i) && frame.stops[i].own < frame.n) x.all.row(frame.stops[i].own).setZero();
-  return x;
 }
 
 /// h of a guard's zero.
@@ -250,6 +226,7 @@ VectorXd behind_pulses(const ModeSet& set, const Leg& leg, VectorXd X) {
 
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
   Jet X = extended(set, leg.lines, x, t_begin);
+  set_slider_rates(set.frame(), leg, X);
   if (sums_impacts(leg)) push(set, {std::uint32_t{1} << static_cast<unsigned>(leg.contact), true}, X);
   return X;
 }

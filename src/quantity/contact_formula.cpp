@@ -257,6 +257,10 @@ Formula Formulas::power(int contact, const std::vector<bool>& above) const {
   }
   const Row w = relative(contact);
   const int compliant = contact - stops() - frictions();
+  if (const int bend = compliant - compliants(); bend >= 0 && bend < bends()) {  // a slider that rests takes nothing
+    const mode::SliderRow* const slider = frame_.slider(bend);
+    if (slider != nullptr && slider->rests(outline_.states.pieces)) return {none()};
+  }
   if (compliant < 0 || compliant >= compliants()) return {none(), {{force(contact, above), w}}};
   const auto at = static_cast<std::size_t>(compliant);
   const CompliantState state = outline_.states.compliant[at];

@@ -37,7 +37,9 @@ Approach::Approach(const flow::Translations& translations, const FixedPoint& cyc
   stage_ = cycles * n;
 }
 
-double Approach::distance(const Eigen::Ref<const VectorXd>& x) const { return section::distance(x, x_, scale_); }
+double Approach::distance(const Eigen::Ref<const VectorXd>& x) const {
+  return section::distance(translations_, x, x_, scale_);
+}
 
 Approach::Look Approach::at(const VectorXd& x) const {
   const VectorXd away = translations_.numbers(x) - numbers_;

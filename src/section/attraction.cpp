@@ -97,23 +97,23 @@ namespace {
 class Beside {
  public:
   Beside(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop)
-      : map_(map), n_(n), stop_(stop), sizes_(map.translations().numbers(scale)), here_(map.translations().numbers(x)) {
+      : map_(map), n_(n), stop_(stop), sizes_(map.translations().numbers(scale)), x_(x) {
     constexpr double null = 1e-6;  // a double multiplier 1, as of a conservative model, is known to half the digits
     const MatrixXd jacobian = map.value(x, n, stop).jacobian;
     by_ = dense::singular_vectors(sizes_.cwiseInverse().asDiagonal() *
-                                  (jacobian - MatrixXd::Identity(here_.size(), here_.size())) * sizes_.asDiagonal());
+                                  (jacobian - MatrixXd::Identity(sizes_.size(), sizes_.size())) * sizes_.asDiagonal());
     nulls_ = (by_.values.array() < null).count();
   }
 
-  [[nodiscard]] Index size() const { return here_.size(); }
+  [[nodiscard]] Index size() const { return sizes_.size(); }
   [[nodiscard]] Index nulls() const { return nulls_; }
   [[nodiscard]] VectorXd direction(Index k) const { return by_.right.col(k); }
-  [[nodiscard]] VectorXd state(const VectorXd& y) const { return map_.translations().representative(at(y)); }
+  [[nodiscard]] VectorXd state(const VectorXd& y) const { return x_ + map_.translations().representative(move(y)); }
 
   /// By how much the point at y misses its return.
   [[nodiscard]] VectorXd residual(const VectorXd& y) const {
     const VectorXd image = map_.value(state(y), n_, stop_).image;
-    return (map_.translations().numbers(image) - at(y)).cwiseQuotient(sizes_);
+    return (map_.translations().numbers(image - x_) - move(y)).cwiseQuotient(sizes_);
   }
 
   /// The part of a residual that moves of no null direction can mend is left; the rest is mended in the least move.
@@ -124,16 +124,16 @@ class Beside {
   }
 
  private:
-  /// The numbers at y. What is rounding moves none: a coordinate that rests at a stop is not put behind it.
-  [[nodiscard]] VectorXd at(const VectorXd& y) const {
+  /// From x to y. What is rounding moves none: a coordinate that rests at a stop is not put behind it.
+  [[nodiscard]] VectorXd move(const VectorXd& y) const {
     constexpr double component_rounding = 0x1p-40;  // of singular vectors; far below what a fold leaves
-    return here_ + (y.array().abs() > component_rounding).select(y, 0.0).cwiseProduct(sizes_);
+    return (y.array().abs() > component_rounding).select(y, 0.0).cwiseProduct(sizes_);
   }
 
   const ReturnMap& map_;
   int n_;
   Stop stop_;
-  VectorXd sizes_, here_;
+  VectorXd sizes_, x_;
   dense::SingularVectors by_;
   Index nulls_ = 0;
 };

@@ -60,9 +60,10 @@ FixedPoint Confirmation::once_round(FixedPoint found, int& n) const {
     if (n % length != 0) continue;
     VectorXd image = flow::contact_state(motion);
     map_.translations().take_out(image);
-    if (distance(image, found.x, record_.scale()) > farthest_image) continue;
+    if (distance(map_.translations(), image, found.x, record_.scale()) > farthest_image) continue;
     auto shorter = fixed_point(map_, found.x, length, record_.scale(), options_.stop);
-    if (!shorter || !shorter->stable() || distance(shorter->x, found.x, record_.scale()) > same_cycle) continue;
+    if (!shorter || !shorter->stable()) continue;
+    if (distance(map_.translations(), shorter->x, found.x, record_.scale()) > same_cycle) continue;
     n = length;
     return std::move(*shorter);
   }
@@ -91,7 +92,7 @@ std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const 
   const int dimensions = alone ? 0 : family(map_, found->x, n, record_.scale(), options_.stop);
   if (!alone && dimensions == 0) return std::nullopt;  // a fold, as far as rounding lets see
   const MapValue& map = found->value;
-  const double missed = distance(map.image, found->x, record_.scale());
+  const double missed = distance(map_.translations(), map.image, found->x, record_.scale());
   return Cycle{found->x, n, map.duration, found->multipliers, map.advance, missed, seen.distance, dimensions, !alone};
 }
 
@@ -107,7 +108,8 @@ VectorXd Confirmation::beside(const VectorXd& x, int n) const {
 
 bool Confirmation::closes(const VectorXd& x, int length) const {
   try {
-    return distance(map_.value(x, length, options_.stop).image, x, record_.scale()) <= options_.tolerance;
+    const VectorXd image = map_.value(x, length, options_.stop).image;
+    return distance(map_.translations(), image, x, record_.scale()) <= options_.tolerance;
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }
@@ -135,7 +137,7 @@ std::optional<Cycle> Confirmation::member(int n) const {
     // A real multiplier 1 without cycles beside is a fold's, which draws motions from one side.
     const bool fold = !options_.free && neutral && std::abs(multipliers.front() - 1.0) <= repelling;
     if ((dimensions == 0 && (!neutral || fold)) || largest > 1.0 + repelling) continue;
-    const double missed = distance(map.image, here, record_.scale());
+    const double missed = distance(map_.translations(), map.image, here, record_.scale());
     return Cycle{
         here,       length, map.duration, std::move(multipliers), map.advance, missed, record_.returned(length),
         dimensions, true};

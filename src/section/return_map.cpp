@@ -17,6 +17,11 @@ double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<con
   return ((a - b).array().abs() / scale.array()).maxCoeff();
 }
 
+double distance(const Translations& translations, const Eigen::VectorXd& a, const Eigen::VectorXd& b,
+                const Eigen::VectorXd& scale) {
+  return distance(translations.numbers(a), translations.numbers(b), translations.numbers(scale));
+}
+
 bool ReturnMap::run(Motion& motion, long n, Stop stop) const {
   for (long k = 0; k < n; ++k) {
     const std::optional<Instant> point = next(motion, stop);
@@ -72,7 +77,7 @@ std::optional<FixedPoint> fixed_point(const ReturnMap& map, Eigen::VectorXd x, i
     for (int step = 0; step < most_steps && idling < most_idle; ++step) {
       const MapValue value = map.value(x, n, stop);
       if (stopped(stop)) return {};
-      const bool arrived = distance(value.image, x, scale) < 1e-11;
+      const bool arrived = distance(translations, value.image, x, scale) < 1e-11;
       if (arrived) return on_section(map, x, value, n, stop);
       const Eigen::VectorXd residual = x - value.image;
       const Eigen::VectorXd correction =

@@ -18,6 +18,9 @@ using Stop = const std::atomic<bool>*;
 /// Distance of two contact states, positions and velocities each relative to `scale` (same layout).
 [[nodiscard]] double distance(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
                               const Eigen::VectorXd& scale);
+/// Of their classes: rates that follow from other numbers are none of a class, and computed states have them unset.
+[[nodiscard]] double distance(const flow::Translations& translations, const Eigen::VectorXd& a,
+                              const Eigen::VectorXd& b, const Eigen::VectorXd& scale);
 
 struct MapValue {
   Eigen::VectorXd image;     ///< representative of its class

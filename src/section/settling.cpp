@@ -128,7 +128,7 @@ bool Settling::is_a_point(const Cycle& cycle) const {
   run_to(motion, Instant{}.plus(0.25 * cycle.duration / cycle.n), options_.stop, [] {});
   VectorXd x = flow::contact_state(motion);
   translations().take_out(x);
-  return distance(x, cycle.x, record_.scale()) <= at_rest_within;
+  return distance(translations(), x, cycle.x, record_.scale()) <= at_rest_within;
 }
 
 void Settling::note_approach(int k, int periods) {

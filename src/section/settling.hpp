@@ -54,7 +54,7 @@ class Settling {
   /// compliant stop at rest: the contact state there.
   [[nodiscard]] const std::optional<Eigen::VectorXd>& shrinks_to() const { return shrinks_to_; }
   [[nodiscard]] double distance_from(const Eigen::VectorXd& x) const {
-    return distance(record_.back(0), x, record_.scale());
+    return distance(translations(), record_.back(0), x, record_.scale());
   }
   /// The size of the motion so far, as of section::distance, if it is to reach numbers of these sizes too.
   [[nodiscard]] Eigen::VectorXd scale_with(const Eigen::VectorXd& sizes) const;

@@ -49,7 +49,7 @@ void KnownCycles::add(const Finding& found, const State& state) {
     const Eigen::VectorXd scale = size_of(map_, motion, found.n);
     const auto fixed = section::fixed_point(map_, flow::contact_state(motion), found.n, scale, nullptr);
     if (!fixed || fixed->multipliers.empty() || std::abs(fixed->multipliers.front()) > 1.0 - inside) return;
-    const double missed = section::distance(fixed->value.image, fixed->x, scale);
+    const double missed = section::distance(map_.translations(), fixed->value.image, fixed->x, scale);
     const section::Cycle cycle{fixed->x, found.n, fixed->value.duration, fixed->multipliers, {}, missed, 0.0};
     Classification cycle_found;
     attractor::describe(system_, cycle, flow::user_state(system_, fixed->x), options_, cycle_found);

@@ -168,6 +168,22 @@ TEST(Maxwell, HasOneExponentMore) {
   EXPECT_TRUE(found.sum_rule_holds());
 }
 
+/// A cycle that turns as it is neared, beside a body that may rest anywhere: a return after several periods is seen
+/// first. Its rate of s, which no class has, must not be compared.
+TEST(Maxwell, ACycleOfAFamilyHasItsOwnPeriod) {
+  for (const double omega : {2.3, 2.9, 3.1, 3.7, 4.1}) {
+    const ModelDefinition definition =
+        file("omega = " + std::to_string(omega) + "\n" + body + "[[coordinate]]\nname = 'y'\nmass = 2\n" +
+             "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 3\n" + element(1.2, 1.9) +
+             "[[spring]]\nbetween = ['x', 'y']\nstiffness = 0.5\n[[force]]\non = 'x'\namplitude = 0.7\n" +
+             "[[friction]]\nname = 'pad'\nbetween = ['y', 'ground']\nstatic = 1.1\nkinetic = 1\n" +
+             "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0.5\n");
+    const Classification found = classify(System(definition.build()), definition.start(), {.transient_periods = 100});
+    EXPECT_EQ(found.label, "1-0-II") << omega;
+    EXPECT_EQ(found.family, 1) << omega;
+  }
+}
+
 /// A gear of ratio 2 sees four times the stiffness and the damping.
 TEST(Maxwell, RatiosActOnItsStretch) {
   const auto state = [&](const std::string& parts) {

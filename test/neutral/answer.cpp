@@ -19,6 +19,8 @@ using Kind = Quantity::Kind;
 Named named(const Model& m, std::size_t coordinate) {
   for (const Spring& spring : m.springs)
     if (spring.inner == static_cast<int>(coordinate)) return {spring.name, false};
+  for (const Characteristic& slider : m.characteristics)
+    if (slider.inner == static_cast<int>(coordinate)) return {slider.name, false};
   return {m.coordinates[coordinate].name, true};
 }
 

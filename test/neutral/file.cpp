@@ -21,7 +21,7 @@ Dimension dimension(const std::string& kind, const std::string& key, bool loaded
   if (key == "momentum") return dim::impulse;
   if (key == "time" || key == "period") return dim::time;
   if (key == "amplitude") return kind == "force" ? dim::force : dim::length;
-  if (key == "holds" || key == "drag") return dim::force;
+  if (key == "holds" || key == "drag" || key == "limit") return dim::force;
   if (key == "static" || key == "kinetic") return loaded ? dim::pure : dim::force;
   return dim::pure;
 }

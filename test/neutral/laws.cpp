@@ -90,8 +90,8 @@ std::optional<std::string> accelerations_sum_up(const ModelDefinition& definitio
   const Instant end = Instant{}.plus(time / system.period());
   State start = definition.start();
   Motion motion(system, start, {}, patience);
-  for (std::size_t i = 0; i < system.model().coordinates.size(); ++i)  // their rates follow from the displacements
-    if (system.model().is_inner(static_cast<int>(i))) start[2 * i + 1] = motion.state()[2 * i + 1];
+  for (std::size_t i = 0; i < 2 * system.model().coordinates.size(); ++i)  // rates follow, and sliders may be drawn
+    if (system.model().is_inner(static_cast<int>(i / 2))) start[i] = motion.state()[i];
   const Measured found = slapstick::measure(motion, end, of);
   while (motion.advance(end) == Outcome::event) {
   }

@@ -70,8 +70,8 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
   edited.rule.twin = twin;
   Definition& after = edited.file;
   const int n = coordinates(file);
-  for (const char* kind : {"coordinate", "spring", "damper", "maxwell", "force", "impulse", "friction", "freewheel",
-                           "stop", "compliant_stop"})
+  for (const char* kind : {"coordinate", "spring", "damper", "maxwell", "jenkins", "force", "impulse", "friction",
+                           "freewheel", "stop", "compliant_stop"})
     for (Part part : file.of(kind)) {
       const bool body = std::string(kind) == "coordinate";
       for (int* end : {&part.a, &part.b})

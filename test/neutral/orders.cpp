@@ -63,7 +63,7 @@ std::optional<Edited> other_order_of_coordinates(const Definition& file, campaig
 }
 
 std::optional<Edited> other_order_of_links(const Definition& file, campaign::Random& random) {
-  return reordered(file, random, {"spring", "damper", "maxwell", "force"});
+  return reordered(file, random, {"spring", "damper", "maxwell", "jenkins", "force"});
 }
 
 /// `sequence` goes by the order of the stops in the file.

@@ -108,5 +108,28 @@ TEST(LoopOfContacts, APadThatRestsIsNamedWhateverTheOrder) {
   }
 }
 
+/// A body that rests while a belt on the other body slips: its velocity is a sum of numbers, which the orbit's
+/// equations must hold, or there is a multiplier 1 too many.
+TEST(LoopOfContacts, ABodyThatRestsBesideABeltHasAnOrbit) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 3.7\n[[coordinate]]\nname = 'x1'\nmass = 2.8\n[[coordinate]]\nname = 'x2'\nmass = 2\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 1.7\n[[spring]]\nbetween = ['x2', 'x1']\nstiffness = 1.9\n"
+      "[[damper]]\nbetween = ['x1', 'ground']\ncoefficient = 0.5\n[[force]]\non = 'x1'\namplitude = 0.97\n"
+      "[[friction]]\nname = 'belt'\nbetween = ['x1', 'x2']\nkinetic = 0.1\nstatic = 0.3\nbelt_speed = 0.0447\n"
+      "[[friction]]\nname = 'foot'\nbetween = ['ground', 'x2']\nkinetic = 1\nstatic = 1.1\n"
+      "[[stop]]\nname = 'wall'\nbetween = ['ground', 'x1']\nclearance = 0.2\nrestitution = 0.5\n",
+      "loop.toml");
+  const System system(definition.build());
+  const auto problem = orbit::pose(definition.family({}), {});
+  const orbit::Settled settled = orbit::settle(*problem, system, definition.start());
+  ASSERT_TRUE(settled.orbit);
+  const Classification found = classify(system, definition.start());
+  EXPECT_EQ(settled.orbit->label, found.label);
+  EXPECT_EQ(settled.orbit->family, found.family);
+  ASSERT_EQ(settled.orbit->multipliers.size(), found.multipliers.size());
+  for (std::size_t i = 0; i < found.multipliers.size(); ++i)
+    EXPECT_LT(std::abs(settled.orbit->multipliers[i] - found.multipliers[i]), 1e-8) << i;
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -32,7 +32,8 @@ class FileDraw {
     if (one_in(5)) ratio();
     if (one_in(6)) press();
     if (one_in(6)) freewheel();
-    if (one_in(5)) maxwell();
+    if (one_in(5)) series("maxwell", "rubber", "damping");
+    if (one_in(5)) series("jenkins", "joint", "limit");
     return std::move(file_);
   }
 
@@ -280,16 +281,16 @@ class FileDraw {
     parts("freewheel").push_back(wheel);
   }
 
-  /// Between the ends of a spring or damper, or a coordinate and what it is measured from.
-  void maxwell() {
+  /// Elements with a spring in series, between two coordinates that are measured from one place, or one and that place.
+  void series(const char* kind, const std::string& name, const char* other) {
     const auto home = [&](int i) { return parts("coordinate")[static_cast<std::size_t>(i)].b; };
     for (int k = integer(1, 2); k > 0; --k) {
       Part element;
-      element.name = "rubber" + std::to_string(k);
+      element.name = name + std::to_string(k);
       element.a = integer(0, coordinates() - 1), element.b = integer(0, coordinates() - 1);
       if (element.a == element.b || home(element.a) != home(element.b) || one_in(2)) element.b = home(element.a);
-      element.fields = {{"stiffness", number(real(0.2, 2))}, {"damping", number(real(0.1, 2))}};
-      parts("maxwell").push_back(element);
+      element.fields = {{"stiffness", number(real(0.2, 2))}, {other, number(real(0.1, 2))}};
+      parts(kind).push_back(element);
     }
   }
 

@@ -150,6 +150,10 @@ TEST(Rates, AgreeWithDifferencesOfAClutchThatIsOvercome) {
   expect_differences(SLAPSTICK_ORBIT_MODELS "overrun.toml", {}, {"holds", "drag", "load", "swing"});
 }
 
+TEST(Rates, AgreeWithDifferencesOfJenkinsElements) {
+  expect_differences(SLAPSTICK_ORBIT_MODELS "joint.toml", {}, {"stiffness", "limit", "loose", "gap", "omega"});
+}
+
 TEST(Rates, AgreeWithDifferencesOfMaxwellElements) {
   expect_differences(SLAPSTICK_ORBIT_MODELS "mount.toml", {}, {"stiffness", "damping", "softer", "gap", "omega"});
 }

@@ -64,7 +64,7 @@ Json parts_of(const Parts& parts, const Write& write) {
   return parts_of(parts, write, [](const auto&) { return true; });
 }
 
-/// Without inner ones: they are the last, and drawn in their Maxwell elements.
+/// Without inner ones: they are the last, and drawn in their elements.
 Json coordinates_of(const Choice& choice, const Model& model) {
   const StatedUnits units = choice.definition.stated_units();
   Json list = Json::list();
@@ -128,6 +128,7 @@ Json mechanism_of(const Choice& choice, const Model& model) {
           }));
   all.set("characteristics", parts_of(model.characteristics, [](Json& item, const Characteristic& one) {
             item.set("name", one.name).set("damps", one.over != Characteristic::Over::displacement);
+            item.set("slides", one.inner >= 0);
           }));
   return all;
 }

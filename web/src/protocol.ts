@@ -39,7 +39,7 @@ export interface Mechanism {
   stops: (Link & { name: string; clearance: number })[];
   frictions: (Link & { name: string; belt: number })[];
   compliant: (Link & { name: string; clearance: number })[];
-  characteristics: (Link & { name: string; damps: boolean })[];
+  characteristics: (Link & { name: string; damps: boolean; slides: boolean })[];
 }
 
 export interface Quantity {

@@ -20,9 +20,8 @@ inline constexpr int ground = -1;
 /// A displacement x with its mass (>= 0; the sum with the mass matrix must be positive definite). The velocity is
 /// called "v" + the rest of the name if the name starts with 'x' (x1 -> v1), else "v_" + name.
 ///
-/// An *inner* coordinate has no mass, and is the inner end of one spring (Spring::inner), where it is with dampers to
-/// ground that add up to c > 0. So it has no inertia: c s' is the spring's force, and s' follows from the
-/// displacements. Nothing else acts on it.
+/// An *inner* coordinate s has no mass, and nothing but its element acts on it. That of a spring (Spring::inner) is on
+/// dampers to ground that add up to c > 0: c s' is the spring's force. That of a characteristic is a slider.
 struct Coordinate {
   std::string name;
   double mass = 1.0;
@@ -176,6 +175,9 @@ struct CompliantStop {
 ///
 /// Over `zones` of the displacement the force is coefficient * (v_a - v_b) instead, with a coefficient for each zone;
 /// the force jumps at a corner. `force` of a corner is the coefficient above it, slope_below that below the first.
+///
+/// With an inner coordinate s and two corners it is a Jenkins element: over x_a - x_b - s, flat outside the corners.
+/// Between them s rests. At a corner s follows x_a - x_b until the motion turns back, so that the force stays.
 struct Characteristic {
   enum class Over : std::uint8_t { displacement, velocity, zones };
   struct Corner {
@@ -187,6 +189,7 @@ struct Characteristic {
   std::vector<Corner> corners;  ///< at least one, `at` ascending
   double slope_below = 0.0, slope_above = 0.0;
   Ratio ratio = {};
+  int inner = -1;  ///< index of an inner coordinate, or -1
 };
 
 /// By what x_i is multiplied in the y of a link.

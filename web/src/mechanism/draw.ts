@@ -116,7 +116,7 @@ class Drawing {
     const { parts } = this.stage.layout;
     this.walls();
     for (const part of parts) if (part.kind === "friction") this.friction(part);
-    for (const part of parts) if (["spring", "coupling", "damper", "maxwell", "polyline"].includes(part.kind)) this.link(part);
+    for (const part of parts) if (["spring", "coupling", "damper", "maxwell", "polyline", "jenkins"].includes(part.kind)) this.link(part);
     this.bodies();
     for (const part of parts) if (part.kind === "stop" || part.kind === "compliant") this.stop(part);
     for (const flash of this.instant.flashes) this.flash(flash.contact, flash.glow);
@@ -169,6 +169,11 @@ class Drawing {
       const middle = (x0 + x1) / 2;
       pen.line(springPath(x0, middle, y), { colour: colours.edge, width: 1.8 });
       drawDamper(pen, middle, x1, y, colours.edge);
+    } else if (part.kind === "jenkins") {  // a spring, and a block between two jaws
+      const middle = (x0 + x1) / 2, jaw = Math.min(26, (x1 - middle) / 2);
+      pen.line(springPath(x0, middle, y), { colour: colours.edge, width: 1.8 });
+      pen.rect(middle, y - 4, jaw, 8, colours.edge);
+      pen.line([x1, y, x1 - 6, y, NaN, NaN, x1 - 6, y - 7, x1 - 6, y + 7, NaN, NaN, middle, y - 7, x1 - 6, y - 7, NaN, NaN, middle, y + 7, x1 - 6, y + 7], { colour: colours.edge, width: 1.6 });
     } else if (part.kind === "coupling") pen.line([x0, y, x1, y], { colour: colours.edge, width: 1.6, dash: [5, 5] });
     else {
       pen.line(springPath(x0, x1, y), { colour: colours.edge, width: 1.8 });

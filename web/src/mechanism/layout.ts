@@ -6,7 +6,7 @@ import type { Link, Mechanism } from "../protocol.ts";
 
 export const ground = -1;
 
-export type Kind = "spring" | "coupling" | "damper" | "maxwell" | "stop" | "friction" | "compliant" | "polyline";
+export type Kind = "spring" | "coupling" | "damper" | "maxwell" | "stop" | "friction" | "compliant" | "polyline" | "jenkins";
 
 export interface Part extends Link {
   kind: Kind;
@@ -40,7 +40,7 @@ export function partsOf(mechanism: Mechanism): Part[] {
     ...stops.map((one) => ({ ...plain, ...one, kind: "stop" as const, contact: contact++ })),
     ...frictions.map((one) => ({ ...plain, ...one, kind: "friction" as const, contact: contact++ })),
     ...compliant.map((one) => ({ ...plain, ...one, kind: "compliant" as const, contact: contact++ })),
-    ...characteristics.map((one) => ({ ...plain, ...one, kind: "polyline" as const, contact: contact++ })),
+    ...characteristics.map((one) => ({ ...plain, ...one, kind: one.slides ? "jenkins" as const : "polyline" as const, contact: contact++ })),
   ].map(({ a, b, ratio, kind, name, contact: number, clearance, belt }) => ({ a, b, ...(ratio && { ratio }), kind, name, contact: number, clearance, belt }));
 }
 
@@ -58,7 +58,7 @@ function cost(order: readonly number[], parts: readonly Part[]): number {
   for (const { a, b, kind } of parts) {
     if (a === ground || b === ground) {
       const body = place.get(a === ground ? b : a) ?? 0;
-      if (kind === "spring" || kind === "damper" || kind === "maxwell" || kind === "polyline") sum += 3 * Math.min(body, last - body) + (body === 0 ? 0 : 0.1);
+      if (kind === "spring" || kind === "damper" || kind === "maxwell" || kind === "polyline" || kind === "jenkins") sum += 3 * Math.min(body, last - body) + (body === 0 ? 0 : 0.1);
       // A stop that holds back motion to the right stands at the right.
       if (kind === "stop" || kind === "compliant") sum += a === ground ? body : last - body;
     } else {

@@ -9,19 +9,15 @@ void AnalysisOptions::declare(Arguments& arguments) {
   arguments.choice(
       "--level", level, {"quick", "full"},
       "quick: a cycle that Newton's method confirms within --periods, or undecided; full: as `classify` (quick)");
-  arguments.count("--periods", periods, 20, 1'000'000'000,
-                  "of quick: forcing periods within which a cycle is to be confirmed (300)");
-  arguments.count("--transient", transient, 0, 1'000'000'000, "of full: as `classify` (500)");
-  arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "of full: as `classify` (20000)");
-  arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "of full: as `classify` (4000)");
+  arguments
+      .count("--periods", periods, 20, 1'000'000'000, "forcing periods within which a cycle is to be confirmed (300)")
+      .with({"--level quick"});
+  arguments.count("--transient", transient, 0, 1'000'000'000, "as `classify` (500)").with({"--level full"});
+  arguments.count("--most-periods", most_periods, 10, 1'000'000'000, "as `classify` (20000)").with({"--level full"});
+  arguments.count("--exponent-periods", exponent_periods, 400, 100'000'000, "as `classify` (4000)")
+      .with({"--level full"});
   arguments.count("--most-n", most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   stops.declare(arguments, "count the impacts of this stop only; may be repeated (all)");
-}
-
-void AnalysisOptions::check_words(const Arguments& arguments) const {
-  if (level == "full" && arguments.given("--periods")) throw InputError("--periods: only for --level quick");
-  for (const char* name : {"--transient", "--most-periods", "--exponent-periods"})
-    if (level == "quick" && arguments.given(name)) throw InputError(std::string(name) + ": only for --level full");
 }
 
 Work AnalysisOptions::work() const {

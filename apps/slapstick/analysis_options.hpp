@@ -14,8 +14,6 @@ struct AnalysisOptions {
   long long periods = 300, transient = 500, most_periods = 20'000, most_n = 64, exponent_periods = 4000;
 
   void declare(Arguments& arguments);
-  /// Options that have no meaning together. @throws InputError naming one
-  void check_words(const Arguments& arguments) const;
   /// What one pixel is certain to run through.
   [[nodiscard]] Work work() const;
   /// @throws InputError for --stop

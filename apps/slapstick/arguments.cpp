@@ -6,12 +6,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "base/decimal.hpp"
 #include "base/nearest.hpp"
+#include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "io/expression.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -22,7 +25,13 @@ struct Arguments::Parser {
   std::vector<std::string> names;  // of the options, with dashes
   std::vector<ArgumentFact> facts;
   std::string notes;
-  std::vector<std::function<void()>> conversions;  // texts into numbers, after parsing
+  std::vector<std::function<void()>> conversions;   // texts into numbers, after parsing
+  std::map<std::string, const std::string*> texts;  // of options whose value a rule may name
+
+  [[nodiscard]] bool given(const std::string& name) const { return app.get_option(name)->count() > 0; }
+  [[nodiscard]] bool holds(const std::string& condition) const;
+  void check_rules() const;
+  Declared note(ArgumentFact fact);
 };
 
 namespace {
@@ -35,7 +44,79 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// "--a, --b or --c".
+std::string listed(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? last : last == "; " ? last : ", ") + words[i];
+  return text;
+}
+
 }  // namespace
+
+/// "--plot": is it given? "--level full": is this its value, given or not?
+bool Arguments::Parser::holds(const std::string& condition) const {
+  const std::size_t space = condition.find(' ');
+  if (space == std::string::npos) return given(condition);
+  return *texts.at(condition.substr(0, space)) == condition.substr(space + 1);
+}
+
+void Arguments::Parser::check_rules() const {
+  const auto met = [this](const std::string& condition) { return holds(condition); };
+  for (const ArgumentFact& fact : facts) {
+    if (fact.kind == ArgumentFact::Kind::positional) continue;
+    if (fact.required && !given(fact.name)) throw InputError(fact.name + " " + fact.value + " is required");
+    if (!given(fact.name)) continue;
+    for (const std::vector<std::string>& one_of : fact.with)
+      if (ranges::none_of(one_of, met)) throw InputError(fact.name + ": only with " + listed(one_of, " or "));
+    if (const auto other = ranges::find_if(fact.without, met); other != fact.without.end())
+      throw InputError(fact.name + ": not with " + *other);
+  }
+}
+
+bool NumberRange::all() const { return std::isinf(least) && std::isinf(most); }
+
+bool NumberRange::has(double value) const {
+  return (above ? value > least : value >= least) && (below ? value < most : value <= most);
+}
+
+std::string NumberRange::text() const {
+  const std::string from = std::isinf(least) ? "(-inf" : (above ? "(" : "[") + shown(least);
+  return from + ", " + (std::isinf(most) ? "inf)" : shown(most) + (below ? ")" : "]"));
+}
+
+std::string ArgumentFact::described() const {
+  std::vector<std::string> rules;
+  if (required && kind != Kind::positional) rules.push_back("required");
+  if (!range.all()) rules.push_back("in " + range.text());
+  for (const std::vector<std::string>& one_of : with) rules.push_back("with " + listed(one_of, " or "));
+  if (!without.empty()) rules.push_back("not with " + listed(without, ", "));
+  return rules.empty() ? help : help + " [" + listed(rules, "; ") + "]";
+}
+
+Arguments::Declared& Arguments::Declared::with(std::vector<std::string> one_of) {
+  parser_.facts[index_].with.push_back(std::move(one_of));
+  describe();
+  return *this;
+}
+
+Arguments::Declared& Arguments::Declared::without(const std::vector<std::string>& others) {
+  std::vector<std::string>& all = parser_.facts[index_].without;
+  all.insert(all.end(), others.begin(), others.end());
+  describe();
+  return *this;
+}
+
+Arguments::Declared& Arguments::Declared::required() {
+  parser_.facts[index_].required = true;
+  describe();
+  return *this;
+}
+
+void Arguments::Declared::describe() {
+  const ArgumentFact& fact = parser_.facts[index_];
+  parser_.app.get_option(fact.name)->description(fact.described());
+}
 
 Arguments::Arguments(const std::string& verb, const std::string& summary) : parser_(std::make_unique<Parser>()) {
   CLI::App& app = parser_->app;
@@ -65,58 +146,67 @@ void Arguments::optional_positional(const std::string& name, std::string& target
   parser_->facts.push_back({ArgumentFact::Kind::positional, name, "", help});
 }
 
-void Arguments::text(const std::string& name, std::string& target, const std::string& value, const std::string& help) {
+Arguments::Declared Arguments::Parser::note(ArgumentFact fact) {
+  names.push_back(fact.name);
+  facts.push_back(std::move(fact));
+  Declared declared(*this, facts.size() - 1);
+  declared.describe();
+  return declared;
+}
+
+Arguments::Declared Arguments::text(const std::string& name, std::string& target, const std::string& value,
+                                    const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value);
-  parser_->names.push_back(name);
-  parser_->facts.push_back({ArgumentFact::Kind::text, name, value, help});
+  parser_->texts[name] = &target;
+  return parser_->note({ArgumentFact::Kind::text, name, value, help});
 }
 
-void Arguments::repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
-                         const std::string& help) {
+Arguments::Declared Arguments::repeated(const std::string& name, std::vector<std::string>& target,
+                                        const std::string& value, const std::string& help) {
   parser_->app.add_option(name, target, help)->type_name(value)->allow_extra_args(false);
-  parser_->names.push_back(name);
-  parser_->facts.push_back({ArgumentFact::Kind::repeated, name, value, help});
+  return parser_->note({ArgumentFact::Kind::repeated, name, value, help});
 }
 
-void Arguments::number(const std::string& name, double& target, const std::string& value, const std::string& help) {
+Arguments::Declared Arguments::number(const std::string& name, double& target, const std::string& value,
+                                      const std::string& help, NumberRange range) {
   auto words = std::make_shared<std::string>();
-  text(name, *words, value, help);
-  parser_->facts.back().kind = ArgumentFact::Kind::number;
-  parser_->conversions.emplace_back([this, name, words, &target] {
-    if (given(name)) target = parse_number(name, *words);
+  parser_->app.add_option(name, *words, help)->type_name(value);
+  parser_->conversions.emplace_back([this, name, words, range, &target] {
+    if (!given(name)) return;
+    target = parse_number(name, *words);
+    if (!range.has(target)) throw InputError(name + ": " + shown(target) + " is outside " + range.text());
   });
+  return parser_->note(
+      {.kind = ArgumentFact::Kind::number, .name = name, .value = value, .help = help, .range = range});
 }
 
-void Arguments::count(const std::string& name, long long& target, long long least, long long most,
-                      const std::string& help) {
+Arguments::Declared Arguments::count(const std::string& name, long long& target, long long least, long long most,
+                                     const std::string& help) {
   auto words = std::make_shared<std::string>();
-  text(name, *words, "N", help);
-  ArgumentFact& fact = parser_->facts.back();
-  fact.kind = ArgumentFact::Kind::count;
-  fact.least = least;
-  fact.most = most;
+  parser_->app.add_option(name, *words, help)->type_name("N");
   parser_->conversions.emplace_back([this, name, words, least, most, &target] {
     if (given(name)) target = parse_integer(name, *words, least, most);
   });
+  return parser_->note(
+      {.kind = ArgumentFact::Kind::count, .name = name, .value = "N", .help = help, .least = least, .most = most});
 }
 
-void Arguments::choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
-                       const std::string& help) {
+Arguments::Declared Arguments::choice(const std::string& name, std::string& target,
+                                      const std::vector<std::string>& words, const std::string& help) {
   std::string list;
   for (const auto& word : words) list += (list.empty() ? "" : "|") + word;
-  text(name, target, list, help);
-  parser_->facts.back().kind = ArgumentFact::Kind::choice;
-  parser_->facts.back().words = words;
+  parser_->app.add_option(name, target, help)->type_name(list);
+  parser_->texts[name] = &target;
   parser_->conversions.emplace_back([name, words, &target] {
     if (std::find(words.begin(), words.end(), target) == words.end())
       throw InputError(name + ": " + in_quotes(target) + " is not one of its words" + suggestion(target, words));
   });
+  return parser_->note({.kind = ArgumentFact::Kind::choice, .name = name, .value = list, .help = help, .words = words});
 }
 
-void Arguments::flag(const std::string& name, bool& target, const std::string& help) {
+Arguments::Declared Arguments::flag(const std::string& name, bool& target, const std::string& help) {
   parser_->app.add_flag(name, target, help);
-  parser_->names.push_back(name);
-  parser_->facts.push_back({ArgumentFact::Kind::flag, name, "", help});
+  return parser_->note({ArgumentFact::Kind::flag, name, "", help});
 }
 
 void Arguments::footer(const std::string& text) {
@@ -133,7 +223,7 @@ std::string_view name(ArgumentFact::Kind kind) {
   return words[static_cast<std::size_t>(kind)];
 }
 
-bool Arguments::given(const std::string& name) const { return parser_->app.get_option(name)->count() > 0; }
+bool Arguments::given(const std::string& name) const { return parser_->given(name); }
 
 std::string Arguments::help() const { return parser_->app.help(); }
 
@@ -157,6 +247,7 @@ bool Arguments::parse(std::vector<std::string> words) {
     throw InputError(one_line(error.what()) + " (see " + parser_->app.get_name() + " --help)");
   }
   for (const auto& convert : parser_->conversions) convert();
+  parser_->check_rules();
   return true;
 }
 

@@ -3,12 +3,26 @@
 ///
 /// A verb declares what it takes; each declaration binds a variable, whose present value is the default. Every mistake
 /// of the user becomes an InputError that names the argument.
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace slapstick::app {
+
+/// The numbers that an option takes.
+struct NumberRange {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  bool above = false, below = false;  ///< the end itself is left out
+
+  [[nodiscard]] bool all() const;
+  [[nodiscard]] bool has(double value) const;
+  [[nodiscard]] std::string text() const;  ///< "(0, 0.2]"
+};
+constexpr NumberRange positive{.least = 0.0, .above = true};
+constexpr NumberRange not_negative{.least = 0.0};
 
 /// What a verb declares of one argument: help, documents and completion come from these.
 struct ArgumentFact {
@@ -17,13 +31,39 @@ struct ArgumentFact {
   std::string name, value, help;        ///< "--out", "FILE"; the value is empty of a flag
   std::vector<std::string> words = {};  ///< of a choice
   long long least = 0, most = 0;        ///< of a count
-  bool required = false;                ///< a positional that may not be left out
+  NumberRange range = {};               ///< of a number
+  bool required = false;                ///< may not be left out
+  /// Other options: one of each group of `with` must be there too, none of `without` may. "--plot", or a value:
+  /// "--level full".
+  std::vector<std::vector<std::string>> with = {};
+  std::vector<std::string> without = {};
+
+  /// The help with these rules: "the panels [with --plot]".
+  [[nodiscard]] std::string described() const;
 };
 /// "positional", "text", "repeated", "number", "count", "choice", "flag".
 [[nodiscard]] std::string_view name(ArgumentFact::Kind kind);
 
 class Arguments {
+  struct Parser;
+
  public:
+  /// An option that was declared, to say beside which others it has a meaning (ArgumentFact::with, without). `parse`
+  /// refuses what breaks these rules.
+  class Declared {
+   public:
+    Declared(Parser& parser, std::size_t index) : parser_(parser), index_(index) {}
+    Declared& with(std::vector<std::string> one_of);  ///< a second call adds a second condition
+    Declared& without(const std::vector<std::string>& others);
+    Declared& required();
+
+   private:
+    friend struct Parser;
+    void describe();
+    Parser& parser_;
+    std::size_t index_;
+  };
+
   Arguments(const std::string& verb, const std::string& summary);
   ~Arguments();
   Arguments(const Arguments&) = delete;
@@ -36,19 +76,20 @@ class Arguments {
   /// Any number of arguments without a dash: "FILE..".
   void positionals(const std::string& name, std::vector<std::string>& target, const std::string& help);
   /// `--name VALUE` with any text. `value` is what the help calls it: "FILE".
-  void text(const std::string& name, std::string& target, const std::string& value, const std::string& help);
+  Declared text(const std::string& name, std::string& target, const std::string& value, const std::string& help);
   /// The same, and may be repeated.
-  void repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
-                const std::string& help);
+  Declared repeated(const std::string& name, std::vector<std::string>& target, const std::string& value,
+                    const std::string& help);
   /// A finite number.
-  void number(const std::string& name, double& target, const std::string& value, const std::string& help);
+  Declared number(const std::string& name, double& target, const std::string& value, const std::string& help,
+                  NumberRange range = {});
   /// A whole number in [least, most].
-  void count(const std::string& name, long long& target, long long least, long long most, const std::string& help);
+  Declared count(const std::string& name, long long& target, long long least, long long most, const std::string& help);
   /// One of several words.
-  void choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
-              const std::string& help);
+  Declared choice(const std::string& name, std::string& target, const std::vector<std::string>& words,
+                  const std::string& help);
   /// `--name` alone.
-  void flag(const std::string& name, bool& target, const std::string& help);
+  Declared flag(const std::string& name, bool& target, const std::string& help);
   /// A paragraph at the end of the help.
   void footer(const std::string& text);
 
@@ -63,7 +104,6 @@ class Arguments {
   [[nodiscard]] bool parse(std::vector<std::string> words);
 
  private:
-  struct Parser;
   std::unique_ptr<Parser> parser_;
 };
 

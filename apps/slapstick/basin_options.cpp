@@ -10,16 +10,10 @@ namespace slapstick::app {
 void BasinOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
-  arguments.text("--x", x, "VAR=A:B:COUNT", "the initial value across: a displacement or a velocity (required)");
-  arguments.text("--y", y, "VAR=A:B:COUNT", "the initial value upwards (required)");
+  arguments.text("--x", x, "VAR=A:B:COUNT", "the initial value across: a displacement or a velocity").required();
+  arguments.text("--y", y, "VAR=A:B:COUNT", "the initial value upwards").required();
   analysis.declare(arguments);
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-}
-
-void BasinOptions::check_words(const Arguments& arguments) const {
-  for (const char* name : {"--x", "--y"})
-    if (!arguments.given(name)) throw InputError(std::string(name) + " VAR=A:B:COUNT is required");
-  analysis.check_words(arguments);
 }
 
 namespace {

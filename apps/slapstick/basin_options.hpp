@@ -15,8 +15,6 @@ struct BasinOptions {
   long long threads = 0;
 
   void declare(Arguments& arguments);
-  /// @throws InputError naming an option
-  void check_words(const Arguments& arguments) const;
 };
 
 /// The wish with its model.

@@ -19,16 +19,24 @@ std::vector<VerbFacts> catalogue() {
 
 namespace {
 
+Json words_json(const std::vector<std::string>& words) {
+  Json list = Json::list();
+  for (const std::string& word : words) list.push(word);
+  return list;
+}
+
 Json fact_json(const ArgumentFact& fact) {
   Json json = Json::object();
   json.set("name", fact.name).set("kind", std::string(name(fact.kind)));
   if (!fact.value.empty()) json.set("value", fact.value);
-  if (fact.kind == ArgumentFact::Kind::choice) {
-    Json words = Json::list();
-    for (const std::string& word : fact.words) words.push(word);
-    json.set("words", std::move(words));
-  }
+  if (fact.kind == ArgumentFact::Kind::choice) json.set("words", words_json(fact.words));
   if (fact.kind == ArgumentFact::Kind::count) json.set("least", fact.least).set("most", fact.most);
+  if (!fact.range.all()) json.set("range", fact.range.text());
+  if (fact.required) json.set("required", true);
+  Json with = Json::list();
+  for (const std::vector<std::string>& one_of : fact.with) with.push(words_json(one_of));
+  if (!fact.with.empty()) json.set("with", std::move(with));
+  if (!fact.without.empty()) json.set("without", words_json(fact.without));
   return json.set("help", fact.help);
 }
 
@@ -89,7 +97,7 @@ std::string catalogue_markdown() {
     text += "\n## " + verb.name + "\n\n" + verb.summary + "\n";
     if (!verb.arguments.empty()) text += "\n| | |\n|---|---|\n";
     for (const ArgumentFact& fact : verb.arguments)
-      text += row(fact.name + (fact.value.empty() ? "" : " " + fact.value), fact.help);
+      text += row(fact.name + (fact.value.empty() ? "" : " " + fact.value), fact.described());
   }
   text += "\n## Quantities\n\n| of a | name | |\n|---|---|---|\n";
   for (const QuantityRule& rule : quantity_rules())

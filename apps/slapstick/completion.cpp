@@ -129,7 +129,7 @@ std::string zsh(const std::vector<VerbFacts>& verbs) {
     for (const ArgumentFact& fact : verb.arguments)
       if (fact.kind != Kind::positional)
         text += " \\\n        " + quoted((fact.kind == Kind::repeated ? "*" : "") + fact.name + "[" +
-                                         zsh_text(fact.help) + "]" + zsh_value(fact));
+                                         zsh_text(fact.described()) + "]" + zsh_value(fact));
     text += " \\\n        '*:file:_files'\n      ;;\n";
   }
   return text +
@@ -152,7 +152,8 @@ std::string fish(const std::vector<VerbFacts>& verbs) {
     for (const ArgumentFact& fact : verb.arguments) {
       if (fact.kind == Kind::positional) continue;
       const std::string names = names_of(fact);
-      text += here + " -l " + fact.name.substr(2) + (fact.kind == Kind::flag ? "" : " -r") + " -d " + quoted(fact.help);
+      text += here + " -l " + fact.name.substr(2) + (fact.kind == Kind::flag ? "" : " -r") + " -d " +
+              quoted(fact.described());
       if (fact.kind == Kind::choice) text += " -f -a " + quoted(joined(fact.words));
       if (!names.empty())
         text += " -f -a '(__slapstick_names " + names + (is_assignment(fact) ? " =" : " \"\"") +

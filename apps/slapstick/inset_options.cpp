@@ -51,14 +51,11 @@ NamedInset read_inset(const std::string& text, const NamedAxis& x, const std::ve
 }  // namespace
 
 void InsetOptions::declare(Arguments& arguments) {
-  arguments.repeated(argument, texts, "X=A:B,Y=A:B",
-                     "of --plot: show this rectangle of the axes enlarged, in the corner where it hides least; may be "
-                     "repeated, up to four in a panel");
-}
-
-void InsetOptions::check_words(const std::string& plot) const {
-  if (!texts.empty() && plot.empty())
-    throw InputError(argument + ": only for the picture of --plot, and --plot is not given");
+  arguments
+      .repeated(argument, texts, "X=A:B,Y=A:B",
+                "show this rectangle of the axes enlarged, in the corner where it hides least; may be repeated, up to "
+                "four in a panel")
+      .with({"--plot"});
 }
 
 std::vector<NamedInset> read_insets(const InsetOptions& options, const NamedAxis& x, const std::vector<NamedAxis>& y) {

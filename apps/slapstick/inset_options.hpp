@@ -19,8 +19,6 @@ struct InsetOptions {
   std::vector<std::string> texts;
 
   void declare(Arguments& arguments);
-  /// @param plot  what --plot says. @throws InputError if there are insets without a picture
-  void check_words(const std::string& plot) const;
 };
 
 /// An inset for each panel whose y axis has this name.

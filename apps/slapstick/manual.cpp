@@ -63,10 +63,10 @@ std::string list_entry(const std::string& term, const std::string& text) {
 }
 
 std::string option_entry(const ArgumentFact& fact) {
-  if (fact.value.empty()) return list_entry(".B " + roff(fact.name), fact.help);
+  if (fact.value.empty()) return list_entry(".B " + roff(fact.name), fact.described());
   std::string value;
   for (const char c : fact.value) value += c == ' ' ? std::string("\\ ") : std::string(1, c);
-  return list_entry(".BI " + roff(fact.name) + " \" " + in_macro(value).substr(1), fact.help);
+  return list_entry(".BI " + roff(fact.name) + " \" " + in_macro(value).substr(1), fact.described());
 }
 
 /// The paragraphs at the end of a help: lines that begin with two spaces are shown as they are.
@@ -108,7 +108,7 @@ std::string verb_page(const VerbFacts& verb) {
   for (const ArgumentFact& fact : verb.arguments) {
     if (positional(fact)) text += (fact.required ? ".I " + roff(fact.name) : ".RI [ " + roff(fact.name) + " ]") + "\n";
     (positional(fact) ? arguments : options) +=
-        positional(fact) ? list_entry(".I " + roff(fact.name), fact.help) : option_entry(fact);
+        positional(fact) ? list_entry(".I " + roff(fact.name), fact.described()) : option_entry(fact);
   }
   text += "[options]\n";
   if (!arguments.empty()) text += ".SH ARGUMENTS\n" + arguments;

@@ -11,41 +11,31 @@ namespace slapstick::app {
 void MapOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
-  arguments.text("--x", x, "NAME=A:B:COUNT", "the parameter across, its range and the number of values (required)");
-  arguments.text("--y", y, "NAME=A:B:COUNT", "the parameter upwards (required)");
+  arguments.text("--x", x, "NAME=A:B:COUNT", "the parameter across, its range and the number of values").required();
+  arguments.text("--y", y, "NAME=A:B:COUNT", "the parameter upwards").required();
   analysis.declare(arguments);
   arguments.text(
       "--start", start, "reset|carry|N",
       "begin each pixel anew, or where its neighbour in the row ended up, or at N random states and keep every "
       "attractor (reset)");
-  arguments.choice("--direction", direction, {"up", "down", "both"},
-                   "of --start carry: through the values of x; both shows coexisting attractors (up)");
-  arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: the number that chooses the random states (1)");
+  arguments
+      .choice("--direction", direction, {"up", "down", "both"},
+              "through the values of x; both shows coexisting attractors (up)")
+      .with({"--start carry"});
+  arguments.count("--seed", seed, 0, 4'294'967'295, "of --start N: the number that chooses the random states (1)")
+      .without({"--start reset", "--start carry"});
   arguments.text("--of", of, "Q:STAT,..",
                  "statistics of quantities over the cycle, or without one over --measured-periods");
-  arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "of --of: where there is no cycle (100)");
+  arguments.count("--measured-periods", measured_periods, 1, 1'000'000'000, "where there is no cycle (100)")
+      .with({"--of"});
   arguments.count("--threads", threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  arguments.count(
-      "--refine", refine, 2, 1024,
-      "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
-      "filled in, and marked (every pixel is computed)");
-  arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N); needs --store");
-}
-
-void MapOptions::check_words(const Arguments& arguments) const {
-  for (const char* name : {"--x", "--y"})
-    if (!arguments.given(name)) throw InputError(std::string(name) + " NAME=A:B:COUNT is required");
-  analysis.check_words(arguments);
-  if (start != "carry" && arguments.given("--direction")) throw InputError("--direction: only for --start carry");
-  if ((start == "carry" || start == "reset") && arguments.given("--seed"))
-    throw InputError("--seed: only for --start N");
-  if (refine > 0 && start != "reset")
-    throw InputError("--refine: only for --start reset; " +
-                     std::string(start == "carry" ? "carried states need every pixel of a row"
-                                                  : "random starts may find other attractors at every pixel"));
-  if (refine > 0 && !shard.empty())
-    throw InputError("--refine: not for --shard; the classes of the whole chart decide what is computed");
-  if (of.empty() && arguments.given("--measured-periods")) throw InputError("--measured-periods: only for --of");
+  arguments
+      .count("--refine", refine, 2, 1024,
+             "compute every N-th pixel of every N-th row, and beyond that only where classes differ; the others are "
+             "filled in, and marked (every pixel is computed)")
+      .with({"--start reset"})
+      .without({"--shard"});
+  arguments.text("--shard", shard, "I/N", "only every N-th tile, beginning with the I-th (1 to N)").with({"--store"});
 }
 
 namespace {

@@ -19,8 +19,6 @@ struct MapOptions {
   long long measured_periods = 100, seed = 1, threads = 0, refine = 0;
 
   void declare(Arguments& arguments);
-  /// Options that have no meaning together. @throws InputError naming one
-  void check_words(const Arguments& arguments) const;
 };
 
 /// The wish with its model: what every part of `map` works on.

@@ -43,8 +43,10 @@ Json values_json(const std::vector<Wanted>& wanted, const orbit::Problem& proble
 }
 
 void declare_sensitivity(Arguments& arguments, std::vector<std::string>& names) {
-  arguments.repeated("--sensitivity", names, "NAME",
-                     "of a cycle: the exact derivative of every statistic by this parameter or group; repeatable");
+  arguments
+      .repeated("--sensitivity", names, "NAME",
+                "of a cycle: the exact derivative of every statistic by this parameter or group; repeatable")
+      .with({"--of"});
 }
 
 Sensitivity sensitivity_of(const std::vector<std::string>& names, const ChosenModel& chosen, const orbit::Orbit& cycle,

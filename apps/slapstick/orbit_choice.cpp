@@ -25,7 +25,7 @@ void OrbitOptions::declare_choice(Arguments& arguments) {
                  "forcing periods (without a drive returns) and impacts per cycle, e.g. 1-1 or 2-inf; 1-1-I without "
                  "stick, 1-1-II with; N alone "
                  "for any impacts (what the motion settles on)");
-  arguments.flag("--stable", stable, "a stable orbit");
+  arguments.flag("--stable", stable, "a stable orbit").without({"--unstable"});
   arguments.flag("--unstable", unstable, "an unstable orbit");
   arguments.flag("--symmetric", symmetric,
                  "an orbit that is its own image half a forcing period later (without a drive half a cycle)");
@@ -36,7 +36,6 @@ void OrbitOptions::declare_choice(Arguments& arguments) {
 }
 
 orbit::OrbitWish OrbitOptions::wish() const {
-  if (stable && unstable) throw InputError("--stable and --unstable exclude one another");
   orbit::OrbitWish wish{.orbit = orbit, .nearest = nearest};
   if (stable || unstable) wish.stable = stable;
   if (symmetric) wish.symmetric = true;

@@ -11,7 +11,6 @@
 namespace slapstick::app {
 
 ParameterRange parse_range(const std::string& argument, const std::string& text) {
-  if (text.empty()) throw InputError(argument + " is needed: A:B");
   const auto parts = split(text, ':');
   if (parts.size() != 2) throw InputError(argument + ": " + in_quotes(text) + " is not of the form A:B");
   const ParameterRange range{parse_number(argument + " A", parts[0]), parse_number(argument + " B", parts[1])};
@@ -35,7 +34,6 @@ auto named(const std::string& argument, const Call& call) {
 }  // namespace
 
 double present_value(const ChosenModel& chosen, const std::string& argument, const std::string& parameter) {
-  if (parameter.empty()) throw InputError(argument + " is needed: the name of a parameter");
   return named(argument, [&] { return chosen.definition.present_value(parameter, chosen.overrides, "--set "); });
 }
 

@@ -170,8 +170,6 @@ void TableOutput::commit() {
 }
 
 Plot::Plot(const std::string& path, const std::string& size) {
-  if (path.empty() && !size.empty())
-    throw InputError("--plot-size: only for the picture of --plot, and --plot is not given");
   if (path.empty()) return;
   const fs::path file(path);
   const std::string ending = file.extension().string();
@@ -230,8 +228,9 @@ int Plot::write_or_say(figure::Figure figure, bool empty, int status) const {
 }
 
 void declare_plot_size(Arguments& arguments, std::string& target) {
-  arguments.text("--plot-size", target, "85mm",
-                 "width of the picture on paper, or width and height: 85x60mm (also cm, in)");
+  arguments
+      .text("--plot-size", target, "85mm", "width of the picture on paper, or width and height: 85x60mm (also cm, in)")
+      .with({"--plot"});
 }
 
 void FileRoles::add(const std::string& argument, const std::string& path) {

@@ -89,13 +89,17 @@ Json state_json(const Motion& motion) {
 
 }  // namespace
 
-void RunUpRange::declare(Arguments& arguments) {
+void RunUpRange::declare(Arguments& arguments, const std::vector<std::string>& others) {
   constexpr long long most = 1'000'000'000;
-  arguments.text("--sweep", sweep, "NAME=A:B",
-                 "run-up: the parameter goes from A to B over --over periods, in steps of --hold");
-  arguments.count("--over", over, 2, most, "forcing periods of the run-up");
-  arguments.count("--hold", hold, 1, most, "forcing periods at each value of it (1)");
-  arguments.flag("--log", logarithmic, "values in equal ratios: a logarithmic sweep, with as many in each octave");
+  arguments
+      .text("--sweep", sweep, "NAME=A:B",
+            "run-up: the parameter goes from A to B over --over periods, in steps of --hold")
+      .with({"--over"})
+      .without(others);
+  arguments.count("--over", over, 2, most, "forcing periods of the run-up").with({"--sweep"});
+  arguments.count("--hold", hold, 1, most, "forcing periods at each value of it (1)").with({"--sweep"});
+  arguments.flag("--log", logarithmic, "values in equal ratios: a logarithmic sweep, with as many in each octave")
+      .with({"--sweep"});
 }
 
 Climb RunUpRange::climb(const ChosenModel& chosen) const {
@@ -128,14 +132,6 @@ RunUp run_of(const Climb& climb, const ChosenModel& chosen, const State& start) 
             return chosen.definition.build(values);
           },
           climb.options, start};
-}
-
-void RunUpRange::check(const Arguments& arguments, const std::vector<std::string>& others) const {
-  if (sweep.empty() != !arguments.given("--over"))
-    throw InputError("--sweep and --over belong together: what changes, and over how many periods");
-  if (logarithmic && sweep.empty()) throw InputError("--log: only with --sweep, whose values it spaces");
-  for (const std::string& other : others)
-    if (!sweep.empty() && arguments.given(other)) throw InputError(other + ": a run-up (--sweep) does not have it");
 }
 
 int run_up(const RunUpRange& range, const RunUpFiles& files, const ChosenModel& chosen, const State& start,

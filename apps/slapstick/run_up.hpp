@@ -25,10 +25,8 @@ struct RunUpRange {
   long long over = 0, hold = 1;  ///< forcing periods, of the run and of each value
   bool logarithmic = false;
 
-  void declare(Arguments& arguments);
   /// @param others  options that a run-up does not have
-  /// @throws InputError if one of them is given, or --over without --sweep
-  void check(const Arguments& arguments, const std::vector<std::string>& others) const;
+  void declare(Arguments& arguments, const std::vector<std::string>& others);
   /// @throws InputError naming the argument
   [[nodiscard]] Climb climb(const ChosenModel& chosen) const;
 };

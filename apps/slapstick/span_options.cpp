@@ -23,28 +23,23 @@ Json span_json(const Span& span) {
 void SpanOptions::declare(Arguments& arguments) {
   model.declare(arguments);
   model.declare_state(arguments);
-  arguments.number("--transient", transient, "N", "forcing periods to leave out first (500; of a record none)");
-  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over N forcing periods instead of a cycle");
-  arguments.number("--time", time, "T", "the same by a time in the model's unit");
+  arguments.number("--transient", transient, "N", "forcing periods to leave out first (500; of a record none)",
+                   {.least = 0.0, .most = 1e9});
+  const std::vector<std::string> of_a_cycle = {"--orbit", "--stable", "--unstable", "--symmetric", "--nearest"};
+  arguments.count("--periods", periods, 1, 1'000'000'000, "measure over N forcing periods instead of a cycle")
+      .without({"--time"})
+      .without(of_a_cycle);
+  arguments.number("--time", time, "T", "the same by a time in the model's unit", not_negative).without(of_a_cycle);
   orbit.declare_choice(arguments);
   arguments.text("--out", out, "FILE", "write there instead of to standard output");
   arguments.flag("--progress", progress, "show progress even if standard error is not a terminal");
 }
 
 void SpanOptions::check() const {
-  constexpr double most = 1e9;
   const bool begins = transient != not_given;
-  if (begins && !(transient >= 0.0 && transient <= most))
-    throw InputError("--transient: " + shown(transient) + " is outside [0, " + shown(most) + "]");
   if (begins && orbit.any() && transient != std::floor(transient))
     throw InputError("--transient: " + shown(transient) +
                      " is no whole number, and the search for an orbit counts periods");
-  if (periods > 0 && time != 0.0) throw InputError("--time and --periods both give the length: choose one");
-  if (time < 0.0) throw InputError("--time: " + shown(time) + " is negative");
-  if (orbit.any() && (periods > 0 || time > 0.0))
-    throw InputError(std::string(time > 0.0 ? "--time" : "--periods") +
-                     ": a periodic orbit is measured over its own cycle");
-  if (of.empty()) throw InputError("--of is needed: the name of a quantity ('slapstick quantities MODEL' lists them)");
 }
 
 Stretch SpanOptions::stretch(const ChosenModel& chosen, long long instead) const {

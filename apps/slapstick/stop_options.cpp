@@ -7,8 +7,8 @@
 
 namespace slapstick::app {
 
-void StopOptions::declare(Arguments& arguments, const std::string& help) {
-  arguments.repeated("--stop", names, "STOP", help);
+Arguments::Declared StopOptions::declare(Arguments& arguments, const std::string& help) {
+  return arguments.repeated("--stop", names, "STOP", help);
 }
 
 StopChoice StopOptions::choice(const Model& model) const {

@@ -11,7 +11,7 @@ namespace slapstick::app {
 struct StopOptions {
   std::vector<std::string> names;  ///< --stop; none: every stop
 
-  void declare(Arguments& arguments, const std::string& help);
+  Arguments::Declared declare(Arguments& arguments, const std::string& help);
   /// @throws InputError naming the argument and the stops there are
   [[nodiscard]] StopChoice choice(const Model& model) const;
 };

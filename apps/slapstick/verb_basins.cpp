@@ -161,7 +161,7 @@ Action add_basins(Arguments& arguments) {
   arguments.text("--plot", options->plot, "F.png", "draw the basins (.png, .pdf, .svg, .tex or .py)");
   declare_plot_size(arguments, options->plot_size);
   arguments.text("--store", options->store, "F.db", "write each start there as it is finished");
-  arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
+  arguments.flag("--resume", options->resume, "compute only what is not there yet").with({"--store"});
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Each start of a plane of initial values, and the attractor that its motion comes to. Initial values that no "
@@ -172,11 +172,7 @@ Action add_basins(Arguments& arguments) {
       "of\n"
       "uncertainty of the boundary.\n"
       "  slapstick basins vibro-impact --set omega=2.82 --x x1=-0.5:0.5:200 --y v1=-1:1:200 --plot basins.png");
-  return [options, &arguments](const Context& context) {
-    options->basins.check_words(arguments);
-    if (options->resume && options->store.empty()) throw InputError("--resume needs --store F.db");
-    return run(*options, context);
-  };
+  return [options](const Context& context) { return run(*options, context); };
 }
 
 }  // namespace slapstick::app

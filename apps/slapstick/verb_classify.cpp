@@ -156,9 +156,11 @@ void declare(Arguments& arguments, Options* options) {
   arguments.count("--most-n", options->most_n, 1, 4096, "longest cycle sought, in forcing periods or returns (64)");
   arguments.count("--exponent-periods", options->exponent_periods, 400, 100'000'000,
                   "length of the run from which exponent, averages and rotation number are taken (4000)");
-  arguments.count("--quick", options->quick, 20, 1'000'000'000,
-                  "look at N periods only, half of them transient: a cycle that Newton's method confirms, or "
-                  "undecided");
+  arguments
+      .count("--quick", options->quick, 20, 1'000'000'000,
+             "look at N periods only, half of them transient: a cycle that Newton's method confirms, or "
+             "undecided")
+      .without({"--transient", "--most-periods", "--exponent-periods"});
   options->stops.declare(arguments, "count and list the impacts of this stop only; may be repeated (all)");
   declare_of(arguments, options->of);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
@@ -179,9 +181,6 @@ Action add_classify(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   declare(arguments, options.get());
   return [options, &arguments](const Context& context) {
-    if (arguments.given("--quick"))
-      for (const char* other : {"--transient", "--most-periods", "--exponent-periods"})
-        if (arguments.given(other)) throw InputError(std::string(other) + " has no meaning with --quick");
     FileRoles roles;
     roles.add("MODEL", options->model.source);
     roles.add("--out", options->out);

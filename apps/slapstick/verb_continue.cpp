@@ -152,16 +152,7 @@ Json branch_json(const Described& with, const Whole& whole) {
 
 /// What can be known to be wrong before the work.
 void check(const Options& options, const ChosenModel& chosen) {
-  if (!(options.step > 0.0 && options.step <= 0.2))
-    throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
-  if (!options.plot_range.empty() && options.plot.empty())
-    throw InputError("--plot-range: only for the picture of --plot, and --plot is not given");
   if (options.diagram == 1) throw InputError("--diagram: a range has two ends; 1 is too few values");
-  if (!options.y.empty() && options.table) throw InputError("--y: the JSON has its values, and --table asks for none");
-  if (!options.y.empty() && options.diagram > 0)
-    throw InputError("--diagram draws the speeds of impacts, and --y something else: choose one");
-  if (options.diagram > 0 && options.plot.empty())
-    throw InputError("--diagram is drawn beneath the branches of --plot; give both");
   for (const std::string& name : options.sensitivity) {
     (void)present_value(chosen, "--sensitivity", name);
     if (name == options.parameter)
@@ -302,10 +293,13 @@ Action add_continue(Arguments& arguments) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
   options->orbit.declare(arguments);
-  arguments.text("--param", options->parameter, "NAME", "the parameter, or group of them, to continue in");
-  arguments.text("--range", options->range, "A:B",
-                 "its range; the branch is followed both ways from the value of the first orbit");
-  arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)");
+  arguments.text("--param", options->parameter, "NAME", "the parameter, or group of them, to continue in").required();
+  arguments
+      .text("--range", options->range, "A:B",
+            "its range; the branch is followed both ways from the value of the first orbit")
+      .required();
+  arguments.number("--step", options->step, "S", "longest step along the branch, as a part of the range (0.01)",
+                   {.least = 0.0, .most = 0.2, .above = true});
   arguments.count("--points", options->points, 1, 1'000'000, "most points each way (2000)");
   arguments.count("--branches", options->branches, 1, 100,
                   "follow the branches that are born at special points too, up to N in all (1)");
@@ -315,16 +309,23 @@ Action add_continue(Arguments& arguments) {
   arguments.flag("--table", options->table, "write a table instead of JSON");
   arguments.flag("--all-changes", options->all_changes,
                  "with --table: a row for every change of a cascade towards a chatter, instead of one for all");
-  arguments.text("--y", options->y, "Q:STAT,..",
-                 "statistics of every orbit's cycle, as `measure` gives them; --plot draws the first");
+  arguments
+      .text("--y", options->y, "Q:STAT,..",
+            "statistics of every orbit's cycle, as `measure` gives them; --plot draws the first")
+      .without({"--table"});
   arguments.text("--plot", options->plot, "F.png", "draw impact speeds along the branches (.png, .pdf or .svg)");
-  arguments.count("--diagram", options->diagram, 0, 100'000,
-                  "with --plot: draw the motions that settle at N values beneath, as `diagram` finds them (0)");
+  arguments
+      .count("--diagram", options->diagram, 0, 100'000,
+             "draw the motions that settle at N values beneath, as `diagram` finds them (0)")
+      .with({"--plot"})
+      .without({"--y"});
   arguments.text("--out", options->out, "FILE",
                  "write the result there, or the orbits as a table (.csv, .npz, .h5), instead of to standard output");
   declare_plot_size(arguments, options->plot_size);
-  arguments.text("--plot-range", options->plot_range, "A:B[,C:D]",
-                 "of the picture: the parameter, and the height (all that --range says, and all that there is)");
+  arguments
+      .text("--plot-range", options->plot_range, "A:B[,C:D]",
+            "of the picture: the parameter, and the height (all that --range says, and all that there is)")
+      .with({"--plot"});
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Special points: LP fold; PD period doubling; NS torus; BP branches cross; GR a stop is grazed; SL stick gained "

@@ -85,8 +85,6 @@ Json curve_json(const orbit::Curve& curve, const std::vector<std::string>& names
 
 /// What can be known to be wrong before the work.
 void check(const Options& options) {
-  if (!(options.step > 0.0 && options.step <= 0.2))
-    throw InputError("--step: " + shown(options.step) + " is outside (0, 0.2]");
   for (const std::string& type : options.from)
     if (ranges::find(types, type) == types.end())
       throw InputError("--from: " + in_quotes(type) +
@@ -186,10 +184,12 @@ Action add_curve(Arguments& arguments) {
   options->orbit.declare(arguments);
   arguments.repeated("--from", options->from, "TYPE",
                      "the type of special point to follow: LP, PD, NS, BP, GR, SL, CH or CO; may be repeated (PD)");
-  arguments.text("--params", options->parameters, "A,B", "the two parameters; the point is sought along the first");
-  arguments.repeated("--range", options->ranges, "NAME=A:B", "range of a parameter; give both");
+  arguments.text("--params", options->parameters, "A,B", "the two parameters; the point is sought along the first")
+      .required();
+  arguments.repeated("--range", options->ranges, "NAME=A:B", "range of a parameter; give both").required();
   arguments.count("--which", options->which, 1, 1000, "the K-th point of that type along the branch (1)");
-  arguments.number("--step", options->step, "S", "longest step along the curve, as a part of the ranges (0.01)");
+  arguments.number("--step", options->step, "S", "longest step along the curve, as a part of the ranges (0.01)",
+                   {.least = 0.0, .most = 0.2, .above = true});
   arguments.count("--points", options->points, 2, 1'000'000, "most points each way (500)");
   arguments.text("--plot", options->plot, "F.png", "draw the curve (.png, .pdf or .svg)");
   arguments.text("--out", options->out, "FILE",

@@ -13,8 +13,6 @@ struct Options {
 };
 
 int run(const Options& options) {
-  if (options.json + options.markdown + !options.page.empty() > 1)
-    throw InputError("choose one of --json, --markdown and --man");
   const std::string text = options.markdown       ? catalogue_markdown()
                            : options.page.empty() ? catalogue_json()
                                                   : manual(options.page);
@@ -28,8 +26,9 @@ int run(const Options& options) {
 
 Action add_describe(Arguments& arguments) {
   auto options = std::make_shared<Options>();
-  arguments.flag("--json", options->json, "as JSON, for programs (this is what is written without an option, too)");
-  arguments.flag("--markdown", options->markdown, "as a page of tables");
+  arguments.flag("--json", options->json, "as JSON, for programs (this is what is written without an option, too)")
+      .without({"--markdown", "--man"});
+  arguments.flag("--markdown", options->markdown, "as a page of tables").without({"--man"});
   arguments.text("--man", options->page, "VERB", "the manual page of a verb, or of slapstick itself, as man reads it");
   arguments.text("--out", options->out, "FILE", "write there instead of to standard output");
   arguments.footer(

@@ -305,20 +305,30 @@ int diagram(const Options& options, const Context& context) {
 
 /// Options that have no meaning together.
 void check_words(const Options& options, const Arguments& arguments) {
-  if (!arguments.given("--sweep")) throw InputError("--sweep NAME=A:B:COUNT is required");
   const bool statistics = !options.y.empty() && are_statistics(options.y);
   for (const char* name : {"--impacts", "--most-periods", "--stop", "--at"})
     if (statistics && arguments.given(name))
       throw InputError(std::string(name) + ": only for values at instants, and --y asks for statistics over --periods");
   if (!statistics && arguments.given("--periods"))
     throw InputError("--periods: only for statistics of --y, and --y names no statistic");
-  if (options.y.empty() && arguments.given("--at")) throw InputError("--at: only for --y, and --y is not given");
-  options.insets.check_words(options.plot);
-  if (options.transient != Options::not_given && !(options.transient >= 0.0 && options.transient <= 1e9))
-    throw InputError("--transient: " + shown(options.transient) + " is outside [0, 1e9]");
-  if (options.store.empty() && options.resume) throw InputError("--resume needs --store F.db");
   if (options.start == "reset" && options.direction == "both")
     throw InputError("--direction both: with --start reset, up and down are the same; choose one, or --start carry");
+}
+
+/// --y and what belongs to it.
+void declare_quantities(Arguments& arguments, Options& options) {
+  arguments.text("--y", options.y, "Q[:STAT],..",
+                 "instead of impacts statistics of quantities over --periods, as `measure` gives them; without STAT "
+                 "values at the instants of --at");
+  arguments
+      .text("--at", options.at, "impact|period|EVENT",
+            "without STAT: before every impact, at phase 0 of every period, or before every event as stick or "
+            "stick:belt (impact; without stops period)")
+      .with({"--y"});
+  arguments
+      .count("--periods", options.periods, 1, 1'000'000'000,
+             "forcing periods that are measured (100; of a record all of it)")
+      .with({"--y"});
 }
 
 }  // namespace
@@ -327,29 +337,23 @@ Action add_diagram(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->model.declare(arguments);
   options->model.declare_state(arguments);
-  arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT",
-                 "the parameter, its range and the number of values (required)");
+  arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT", "the parameter, its range and the number of values")
+      .required();
   arguments.choice("--direction", options->direction, {"up", "down", "both"},
                    "in which the state is carried (up); both shows coexisting attractors");
   arguments.choice("--start", options->start, {"carry", "reset"},
                    "carry the state from value to value, or begin each anew (carry)");
   arguments.number("--transient", options->transient, "N",
-                   "forcing periods at each value before recording (500; of a record none)");
+                   "forcing periods at each value before recording (500; of a record none)",
+                   {.least = 0.0, .most = 1e9});
   arguments.count("--impacts", options->impacts, 1, 1'000'000'000, "impacts to record at each value (200)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
                   "end a recording here if impacts are rare (5000)");
   arguments.count("--threads", options->threads, 0, 1024, "0: all cores; the result is the same for any number (0)");
-  arguments.text("--y", options->y, "Q[:STAT],..",
-                 "instead of impacts statistics of quantities over --periods, as `measure` gives them; without STAT "
-                 "values at the instants of --at");
-  arguments.text("--at", options->at, "impact|period|EVENT",
-                 "of --y without STAT: before every impact, at phase 0 of every period, or before every event as stick "
-                 "or stick:belt (impact; without stops period)");
-  arguments.count("--periods", options->periods, 1, 1'000'000'000,
-                  "of --y: forcing periods that are measured (100; of a record all of it)");
+  declare_quantities(arguments, *options);
   options->stops.declare(arguments, "record the impacts of this stop only; may be repeated (all)");
   arguments.text("--store", options->store, "F.db", "write each value there as it is finished");
-  arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
+  arguments.flag("--resume", options->resume, "compute only what is not there yet").with({"--store"});
   arguments.text("--out", options->out, "F.csv",
                  "write the impacts there (.csv, .npz or .h5) instead of to standard output");
   arguments.text("--plot", options->plot, "F.png",

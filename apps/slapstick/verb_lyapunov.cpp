@@ -169,7 +169,8 @@ Action add_lyapunov(Arguments& arguments) {
   arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to leave out first (500)");
   arguments.count("--periods", options->periods, 20, 1'000'000'000,
                   "periods that the exponents are averaged over; with --error their greatest number (20000)");
-  arguments.number("--error", options->error, "E", "end as soon as every standard error per period is below E");
+  arguments.number("--error", options->error, "E", "end as soon as every standard error per period is below E",
+                   positive);
   arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT", "curves of exponents: a CSV row for each value");
   arguments.count("--threads", options->threads, 0, 1024, "of --sweep; 0: all. The result is the same (0)");
   arguments.text("--out", options->out, "FILE", "write there instead of to standard output");
@@ -184,8 +185,6 @@ Action add_lyapunov(Arguments& arguments) {
     FileRoles roles;
     roles.add("MODEL", options->model.source);
     roles.add("--out", options->out);
-    if (arguments.given("--error") && !(options->error > 0.0))
-      throw InputError("--error: " + shown(options->error) + " is not above 0");
     const ChosenModel chosen = options->model.load();
     return options->sweep.empty() ? one(*options, chosen, context) : many(*options, chosen, context);
   };

@@ -151,31 +151,25 @@ Action add_map(Arguments& arguments) {
                  "what the panels of the picture are: class, exponent, multiplier, n, p, attractors, Q:STAT of --of "
                  "(class and those of --of)");
   options->insets.declare(arguments);
-  arguments.count("--curves", options->curves, 0, 1000,
-                  "of --plot: lay up to N bifurcation curves over the chart, found from its own boundaries (0)");
+  arguments
+      .count("--curves", options->curves, 0, 1000,
+             "lay up to N bifurcation curves over the chart, found from its own boundaries (0)")
+      .with({"--plot"})
+      .with({"--start reset"})
+      .without({"--slurm"});
   arguments.text("--store", options->store, "F.db", "write each pixel there as it is finished");
-  arguments.flag("--resume", options->resume, "of --store: compute only what is not there yet");
-  arguments.count("--slurm", options->slurm, 1, 100'000,
-                  "print a script for `sbatch` that computes the map into --store in N tasks");
+  arguments.flag("--resume", options->resume, "compute only what is not there yet").with({"--store"});
+  arguments
+      .count("--slurm", options->slurm, 1, 100'000,
+             "print a script for `sbatch` that computes the map into --store in N tasks")
+      .with({"--store"})
+      .without({"--shard", "--resume", "--threads", "--refine"});
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A chart over two parameters: at every pixel the class n-p-I or n-p-II, the kind of attractor, exponent and "
       "multiplier.\n"
       "  slapstick map vibro-impact --x omega=1:6:200 --y friction=0.05:0.3:120 --plot chart.png --out chart.csv");
-  return [options, &arguments](const Context& context) {
-    options->map.check_words(arguments);
-    if (options->map.refine > 0 && options->slurm > 0)
-      throw InputError("--refine: not for --slurm; the classes of the whole chart decide what is computed");
-    options->insets.check_words(options->plot);
-    if (options->curves > 0 && (options->plot.empty() || options->map.start != "reset" || options->slurm > 0))
-      throw InputError("--curves needs --plot and --start reset, and is not for --slurm");
-    for (const char* other : {"--shard", "--resume", "--threads"})
-      if (options->slurm > 0 && arguments.given(other))
-        throw InputError(std::string(other) + ": the script of --slurm has its own");
-    for (const char* name : {"--resume", "--shard", "--slurm"})
-      if (options->store.empty() && arguments.given(name)) throw InputError(std::string(name) + " needs --store F.db");
-    return map(*options, context);
-  };
+  return [options](const Context& context) { return map(*options, context); };
 }
 
 }  // namespace slapstick::app

@@ -58,9 +58,11 @@ int run(const Options& all, const Context& context) {
 Action add_measure(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->span.declare(arguments);
-  arguments.text("--of", options->span.of, "Q[:STAT],..",
-                 "quantities, and of each one statistic or all: mean, rms, min, max, min_at, max_at, peak_to_peak, "
-                 "crest, impulse, number; of a cycle h1 .. h16, h1:phase ..");
+  arguments
+      .text("--of", options->span.of, "Q[:STAT],..",
+            "quantities, and of each one statistic or all: mean, rms, min, max, min_at, max_at, peak_to_peak, "
+            "crest, impulse, number; of a cycle h1 .. h16, h1:phase ..")
+      .required();
   arguments.count("--bins", options->bins, 1, 100'000, "histograms of the impacts of every stop, with N bins (none)");
   declare_sensitivity(arguments, options->sensitivity);
   arguments.footer(

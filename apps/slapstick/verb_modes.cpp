@@ -165,8 +165,6 @@ int run(const Options& options, const Context& context) {
   roles.add("MODEL", options.model.source);
   roles.add("--out", options.out);
   roles.add_plot(options.plot);
-  if (!options.plot.empty() && options.sweep.empty())
-    throw InputError("--plot: a picture shows the modes over a parameter: give --sweep NAME=A:B:COUNT");
   const ChosenModel chosen = options.model.load();
   const Sweep sweep = options.sweep.empty() ? Sweep{} : parse_sweep(options.sweep);
   const Plot plot(options.plot, options.plot_size);
@@ -194,7 +192,7 @@ Action add_modes(Arguments& arguments) {
       "open");
   arguments.text("--sweep", options->sweep, "NAME=A:B:COUNT", "the modes over a parameter: rows for each value");
   arguments.text("--out", options->out, "FILE", "write the table there instead of to standard output");
-  arguments.text("--plot", options->plot, "F.png", "of --sweep: frequencies and decays over the parameter");
+  arguments.text("--plot", options->plot, "F.png", "frequencies and decays over the parameter").with({"--sweep"});
   declare_plot_size(arguments, options->plot_size);
   arguments.footer(
       "Natural frequencies, damping and shapes of the machine with these contacts held: eigenvalues lambda of its "

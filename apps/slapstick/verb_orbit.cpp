@@ -73,20 +73,6 @@ void search_all(const Options& options, const orbit::Problem& problem, const Sys
   json.set("note", "found from " + tried(result.report, options.orbit) + "; a search is no proof of completeness");
 }
 
-void check(const Options& options) {
-  if (options.all && !options.orbit.orbit.empty())
-    throw InputError("--all lists every orbit; --orbit has no meaning with it");
-  if (options.all && !options.plot.empty())
-    throw InputError("--all lists every orbit; --plot draws one: name it by --orbit");
-  if (!options.show.empty() && options.plot.empty())
-    throw InputError("--show: only for the picture of --plot, and --plot is not given");
-  if (options.all && options.orbit.nearest)
-    throw InputError("--all lists every orbit; --nearest has no meaning with it");
-  if (!options.sensitivity.empty() && options.of.empty())
-    throw InputError("--sensitivity: only for the statistics of --of, and --of is not given");
-  if (!options.all && (options.most_n > 0 || options.most_p >= 0)) throw InputError("--max-n and --max-p need --all");
-}
-
 /// The cycle as a motion from the orbit's state on: in one cycle an unstable one is not yet lost.
 figure::Figure cycle_figure(const Options& options, const orbit::Problem& problem, const orbit::Solution& solution,
                             const System& system, const ChosenModel& chosen) {
@@ -126,7 +112,6 @@ int run(const Options& options, const Context& context) {
   const Plot plot(options.plot, options.plot_size);
   const ChosenModel chosen = options.model.load();
   const State start = options.model.start(chosen);
-  check(options);
   const Asked asked{chosen, parse_of(options.of, chosen), options.sensitivity};
   const System system = affordable_system(chosen, {static_cast<double>(options.orbit.transient) + 1.0, "--transient"});
   const auto problem = orbit::pose(chosen.definition.family({}, chosen.overrides), {});
@@ -156,15 +141,16 @@ Action add_orbit(Arguments& arguments) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
   options->orbit.declare(arguments);
-  arguments.flag("--all", options->all, "list every orbit that a search finds, instead of one");
-  arguments.count("--max-n", options->most_n, 1, 64, "with --all: most forcing periods, or returns, per cycle (1)");
-  arguments.count("--max-p", options->most_p, 0, 1'000'000, "with --all: most impacts per cycle");
+  arguments.flag("--all", options->all, "list every orbit that a search finds, instead of one")
+      .without({"--orbit", "--plot", "--nearest"});
+  arguments.count("--max-n", options->most_n, 1, 64, "most forcing periods, or returns, per cycle (1)").with({"--all"});
+  arguments.count("--max-p", options->most_p, 0, 1'000'000, "most impacts per cycle").with({"--all"});
   declare_of(arguments, options->of);
   declare_sensitivity(arguments, options->sensitivity);
   arguments.text("--out", options->out, "FILE", "write the JSON there instead of to standard output");
   arguments.text("--plot", options->plot, "F.png", "picture of the cycle: .png, .pdf or .svg, as of `simulate`");
   declare_plot_size(arguments, options->plot_size);
-  arguments.text("--show", options->show, "Q,X:Y,..", "panels of the picture, as of `simulate`");
+  arguments.text("--show", options->show, "Q,X:Y,..", "panels of the picture, as of `simulate`").with({"--plot"});
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "A periodic orbit, stable or not, by Newton's method on the closed form of its legs, checked by a simulation.\n"

@@ -79,11 +79,8 @@ void check(const PoincareOptions& options, const Model& model) {
   if (options.section == "stroboscopic" && !model.forced())
     throw InputError("--section stroboscopic: model " + in_quotes(model.name) +
                      " has no harmonic forcing; --section event --event KIND needs none");
-  if ((options.section == "event") == options.event.empty())
-    throw InputError(options.event.empty() ? "--section event: name the events by --event KIND or KIND:CONTACT"
-                                           : "--event belongs to --section event");
-  if (!(options.phase >= 0.0 && options.phase < 1.0))
-    throw InputError("--phase: " + shown(options.phase) + " is outside [0, 1)");
+  if (options.section == "event" && options.event.empty())
+    throw InputError("--section event: name the events by --event KIND or KIND:CONTACT");
 }
 
 int poincare(const PoincareOptions& options, const Context& context) {
@@ -121,11 +118,13 @@ Action add_poincare(Arguments& arguments) {
   options->model.declare_state(arguments);
   arguments.choice("--section", options->section, {"impact", "stroboscopic", "event"},
                    "where the motion is looked at (impact)");
-  arguments.text(
-      "--event", options->event, "KIND[:CONTACT]",
-      "of the event section: impact, slip+, slip-, stick, release, graze, chatter, corner, unload, load, engage, "
-      "disengage or separate");
-  arguments.number("--phase", options->phase, "X", "of the stroboscopic section, a fraction of a period in [0, 1) (0)");
+  arguments
+      .text("--event", options->event, "KIND[:CONTACT]",
+            "impact, slip+, slip-, stick, release, graze, chatter, corner, unload, load, engage, disengage or separate")
+      .with({"--section event"});
+  arguments
+      .number("--phase", options->phase, "X", "a fraction of a period (0)", {.least = 0.0, .most = 1.0, .below = true})
+      .with({"--section stroboscopic"});
   arguments.count("--transient", options->transient, 0, 1'000'000'000, "forcing periods to run before (500)");
   arguments.count("--points", options->points, 1, 1'000'000'000, "points to record (1000)");
   arguments.count("--most-periods", options->most_periods, 1, 1'000'000'000,
@@ -150,8 +149,6 @@ Action add_poincare(Arguments& arguments) {
       "Example:\n  slapstick poincare vibro-impact --set omega=4.805 --points 5000 --plot circles.png --out "
       "points.csv\n  slapstick poincare belt --section event --event stick --transient 0 --points 5");
   return [options, &arguments](const Context& context) {
-    if (arguments.given("--phase") && options->section != "stroboscopic")
-      throw InputError("--phase belongs to --section stroboscopic");
     if (arguments.given("--most-periods")) options->patience = options->most_periods;
     if (!options->stops.names.empty() && options->section == "stroboscopic" && options->plot.empty())
       throw InputError("--stop: of the stroboscopic section only for the picture of --plot, and --plot is not given");

@@ -269,21 +269,19 @@ int simulate(const Options& options, bool by_time, const Context& context) {
   return run.write(complete, chosen, start);
 }
 
-/// @throws InputError for options that do not go together
-void check(const Options& options, const Arguments& arguments) {
-  if (arguments.given("--time") && arguments.given("--periods"))
-    throw InputError("--time and --periods both give the length: choose one");
-  if (!options.columns.empty() && options.trajectory.empty())
-    throw InputError("--columns: only for --trajectory, and --trajectory is not given");
-  if (!options.columns.empty() && options.physical)
-    throw InputError("--columns: quantities are in the model's numbers; leave --physical away");
-  options.climb.check(arguments, {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"});
-  if (options.physical && options.events.empty() && options.trajectory.empty())
-    throw InputError("--physical: only for --events and --trajectory, and neither is given");
-  for (const char* name : {"--stop", "--window", "--show"})
-    if (arguments.given(name) && options.plot.empty())
-      throw InputError(std::string(name) + ": only for the picture of --plot, and --plot is not given");
-  if (options.stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
+/// --plot and what belongs to it.
+void declare_picture(Arguments& arguments, Options& options) {
+  arguments.text("--plot", options.plot, "F.png",
+                 "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
+  declare_plot_size(arguments, options.plot_size);
+  arguments.text("--window", options.window, "A:B", "the periods that the picture shows (the last 20)")
+      .with({"--plot"});
+  arguments
+      .text(
+          "--show", options.show, "Q,X:Y,..",
+          "its panels: Q over time, Y over X, of `slapstick quantities` (velocity and displacement of the stop's pair)")
+      .with({"--plot"});
+  options.stop.declare(arguments, "the stop whose pair the picture shows (the first one)").with({"--plot"});
 }
 
 }  // namespace
@@ -293,30 +291,29 @@ Action add_simulate(Arguments& arguments) {
   options->model.declare(arguments);
   options->model.declare_state(arguments);
   arguments.count("--periods", options->periods, 0, most_periods, "length in forcing periods (100)");
-  arguments.number("--time", options->time, "T", "length in the model's unit of time, instead of --periods");
-  options->climb.declare(arguments);
+  arguments.number("--time", options->time, "T", "length in the model's unit of time").without({"--periods"});
+  options->climb.declare(arguments,
+                         {"--periods", "--time", "--certify", "--plot", "--physical", "--columns", "--until"});
   arguments.text("--events", options->events, "F.csv",
                  "every event: time, kind, contact, w, and the state just before; .csv, .npz or .h5");
   arguments.text("--trajectory", options->trajectory, "F.csv",
                  "samples: time, state, mode, and the model's observables; .csv, .npz or .h5");
-  arguments.text("--columns", options->columns, "Q,..",
-                 "quantities as further columns of --trajectory ('slapstick quantities MODEL' lists them)");
+  arguments
+      .text("--columns", options->columns, "Q,..",
+            "quantities as further columns, in the model's numbers ('slapstick quantities MODEL' lists them)")
+      .with({"--trajectory"})
+      .without({"--physical"});
   arguments.text("--until", options->until, "EVENT[:K]",
                  "end at the K-th event of this kind (1), as stick or impact:wall; --periods or --time is the limit");
   arguments.text("--certify", options->certify, "F.txt",
                  "the run with its model, for slapstick-verify to prove (docs/reference/certificate.md)");
   arguments.count("--samples", options->samples, 1, 1'000'000, "samples of --trajectory per forcing period (100)");
-  arguments.text("--plot", options->plot, "F.png",
-                 "picture of the last 20 periods: .png, .pdf or .svg; its data and script lie beside it");
-  declare_plot_size(arguments, options->plot_size);
-  arguments.text("--window", options->window, "A:B", "the periods that the picture shows (the last 20)");
-  arguments.text(
-      "--show", options->show, "Q,X:Y,..",
-      "its panels: Q over time, Y over X, of `slapstick quantities` (velocity and displacement of the stop's pair)");
-  options->stop.declare(arguments, "the stop whose pair the picture shows (the first one)");
+  declare_picture(arguments, *options);
   arguments.text("--out", options->out, "F.json", "write the summary there instead of to standard output");
-  arguments.flag("--physical", options->physical,
-                 "the tables in the physical units of the model's [scale]; all else stays in the model's numbers");
+  arguments
+      .flag("--physical", options->physical,
+            "the tables in the physical units of the model's [scale]; all else stays in the model's numbers")
+      .with({"--events", "--trajectory"});
   arguments.flag("--progress", options->progress, "show progress even if standard error is not a terminal");
   arguments.footer(
       "Example:\n  slapstick simulate vibro-impact --set omega=1.5 --state x1=-0.5,v1=0 --periods 50 --events "
@@ -326,7 +323,7 @@ Action add_simulate(Arguments& arguments) {
       "Friction contacts with a normal force have unload and load. w is the relative velocity just before.\n"
       "A model without forcing has a period of 1.");
   return [options, &arguments](const Context& context) {
-    check(*options, arguments);
+    if (options->stop.names.size() > 1) throw InputError("--stop is given more than once: the picture shows one pair");
     return simulate(*options, arguments.given("--time"), context);
   };
 }

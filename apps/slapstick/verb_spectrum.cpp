@@ -120,19 +120,8 @@ Found analyse(const Options& options, const ChosenModel& chosen, const Span& spa
   return found;
 }
 
-void check(const Options& options) {
-  options.span.check();
-  if (!(options.highest_order > 0.0))
-    throw InputError("--orders: " + shown(options.highest_order) + " is not positive");
-  if (!(options.highest >= 0.0)) throw InputError("--to: " + shown(options.highest) + " is negative");
-  if (!(options.stretch > 0.0)) throw InputError("--stretch: " + shown(options.stretch) + " is not positive");
-  if (!(options.reference > 0.0)) throw InputError("--reference: " + shown(options.reference) + " is not positive");
-  if (options.weighted && options.octaves == "none")
-    throw InputError("--a-weighting: only for the levels of --octaves, and --octaves is not given");
-}
-
 int run(const Options& options, const Context& context) {
-  check(options);
+  options.span.check();
   FileRoles roles;
   roles.add("MODEL", options.span.model.source);
   roles.add("--out", options.span.out);
@@ -172,19 +161,25 @@ int run(const Options& options, const Context& context) {
 Action add_spectrum(Arguments& arguments) {
   auto options = std::make_shared<Options>();
   options->span.declare(arguments);
-  arguments.text("--of", options->span.of, "Q", "the quantity ('slapstick quantities MODEL' lists them)");
-  arguments.number("--orders", options->highest_order, "N", "highest order, in multiples of the forcing (20)");
+  arguments.text("--of", options->span.of, "Q", "the quantity ('slapstick quantities MODEL' lists them)").required();
+  arguments.number("--orders", options->highest_order, "N", "highest order, in multiples of the forcing (20)", positive)
+      .without({"--to"});
   arguments.number("--to", options->highest, "HZ",
-                   "the same as a frequency, in Hz (where the file states no unit of time, cycles per unit of time)");
-  arguments.number("--stretch", options->stretch, "P", "of a density: forcing periods in a stretch (64)");
+                   "the same as a frequency, in Hz (where the file states no unit of time, cycles per unit of time)",
+                   not_negative);
+  arguments.number("--stretch", options->stretch, "P", "of a density: forcing periods in a stretch (64)", positive);
   arguments.choice("--octaves", options->octaves, {"none", "1", "3"},
                    "mean squares in bands of an octave or a third of it");
-  arguments.flag("--a-weighting", options->weighted, "weight the levels of --octaves by A (IEC 61672)");
+  arguments.flag("--a-weighting", options->weighted, "weight the levels by A (IEC 61672)")
+      .with({"--octaves 1", "--octaves 3"});
   arguments.choice("--scale", options->scale, {"db", "linear"}, "of the picture (db)");
-  arguments.number("--reference", options->reference, "R", "0 dB, in the quantity's unit (1)");
-  options->climb.declare(arguments);
-  arguments.count("--settle", options->settle, 0, 1'000'000'000,
-                  "of a run-up: periods at each value that are not measured (0)");
+  arguments.number("--reference", options->reference, "R", "0 dB, in the quantity's unit (1)", positive);
+  options->climb.declare(arguments, {"--periods", "--time", "--transient", "--orbit", "--stable", "--unstable",
+                                     "--symmetric", "--nearest", "--stretch", "--octaves", "--a-weighting", "--to"});
+  arguments
+      .count("--settle", options->settle, 0, 1'000'000'000,
+             "of a run-up: periods at each value that are not measured (0)")
+      .with({"--sweep"});
   arguments.text("--plot", options->plot, "F.png", "picture: .png, .pdf or .svg; its data and script lie beside it");
   declare_plot_size(arguments, options->plot_size);
   arguments.footer(
@@ -194,15 +189,7 @@ Action add_spectrum(Arguments& arguments) {
       "waterfall.\n"
       "  slapstick spectrum vibro-impact --set omega=2.9 --of a1 --plot a1.png\n"
       "  slapstick spectrum vibro-impact --sweep omega=2:4 --over 800 --hold 20 --of a1 --out map.csv --plot map.png");
-  return [options, &arguments](const Context& context) {
-    if (arguments.given("--to") && arguments.given("--orders"))
-      throw InputError("--to and --orders both give the highest frequency: choose one");
-    options->climb.check(arguments, {"--periods", "--time", "--transient", "--orbit", "--stable", "--unstable",
-                                     "--symmetric", "--nearest", "--stretch", "--octaves", "--a-weighting", "--to"});
-    if (options->climb.sweep.empty() && arguments.given("--settle"))
-      throw InputError("--settle: only for a run-up, and --sweep is not given");
-    return run(*options, context);
-  };
+  return [options](const Context& context) { return run(*options, context); };
 }
 
 }  // namespace slapstick::app

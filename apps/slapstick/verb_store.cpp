@@ -115,9 +115,8 @@ Action add_store(Arguments& arguments) {
       "  slapstick store export chart.db --out chart.h5 --plot chart.png");
   return [options, &arguments](const Context& context) {
     if (options->action != "export")
-      for (const char* name : {"--plot", "--plot-size", "--show", "--inset"})
+      for (const char* name : {"--plot", "--show"})
         if (arguments.given(name)) throw InputError(std::string(name) + ": only for store export");
-    options->insets.check_words(options->plot);
     if (options->action == "info") return info(*options);
     if (options->action == "merge") return merge(*options, context);
     if (options->action == "export") return write_out(*options);

@@ -45,6 +45,78 @@ def test_words_and_bounds_that_are_described_are_those_that_are_taken():
                 assert f"[{argument['least']}, {argument['most']}]" in line, (verb['name'], line)
 
 
+def given(argument):
+    """An option as a user would write it, with a value that is read."""
+    kind, name = argument['kind'], argument['name']
+    if kind == 'flag':
+        return [name]
+    if kind == 'choice':
+        return [name, argument['words'][0]]
+    return [name, str(argument['least']) if kind == 'count' else '0.1']
+
+
+def beside(verb, argument):
+    """What an option needs: the model, what is required, and the first of each group of others."""
+    words, names = [], {one['name']: one for one in verb['arguments']}
+    for one in verb['arguments']:
+        if one.get('required') and one['name'] != argument['name']:
+            words += ['vibro-impact'] if one['kind'] == 'positional' else given(one)
+    for group in argument.get('with', []):
+        if group[0] not in names:  # "--level full"
+            words += group[0].split(' ')
+        elif group[0] not in words:
+            words += given(names[group[0]])
+    return words
+
+
+def test_rules_between_options_name_options_that_there_are():
+    count = 0
+    for verb in described()['verbs']:
+        values = {one['name']: one.get('words') for one in verb['arguments']}
+        for argument in verb['arguments']:
+            for rule in sum(argument.get('with', []), argument.get('without', [])):
+                name, _, value = rule.partition(' ')
+                assert name in values and name != argument['name'], (verb['name'], rule)
+                assert not (value and values[name]) or value in values[name], (verb['name'], rule)
+                count += 1
+    assert count > 60
+
+
+def test_an_option_is_refused_without_what_it_needs_and_with_what_it_excludes():
+    refusals = 0
+    for verb in described()['verbs']:
+        names = {one['name']: one for one in verb['arguments']}
+        for argument in verb['arguments']:
+            option, needs = argument['name'], beside(verb, argument)
+            if argument['kind'] == 'positional':
+                continue
+            if argument.get('required'):
+                assert f"{option} {argument['value']} is required" in refused(2, verb['name'], *needs), (verb['name'], option)
+            for group in argument.get('with', []):
+                first = group[0].split(' ')[0]
+                left = needs[:needs.index(first)] + needs[needs.index(first) + (1 if names[first]['kind'] == 'flag' else 2):]
+                line = refused(2, verb['name'], *left, *given(argument))
+                assert f"{option}: only with {' or '.join(group)}" in line, (verb['name'], line)
+                refusals += 1
+            for other in argument.get('without', []):
+                more = other.split(' ') if ' ' in other else beside(verb, names[other]) + given(names[other])
+                wanted = [word for word in more if word not in needs] if '--' in ''.join(needs) else more
+                line = refused(2, verb['name'], *needs, *wanted, *given(argument))
+                assert f'{option}: not with {other}' in line or 'not with' in line or 'only with' in line, (verb['name'], line)
+                refusals += 1
+    assert refusals > 60
+
+
+def test_numbers_beyond_their_range_are_refused():
+    for verb in described()['verbs']:
+        for argument in verb['arguments']:
+            if 'range' in argument:
+                below = argument['range'].strip('([').split(',')[0]
+                value = '-1' if below in ('0', '-inf') else str(float(below) - 1)
+                line = refused(2, verb['name'], *beside(verb, argument), argument['name'], value)
+                assert f"{argument['name']}: {value} is outside {argument['range']}" in line, line
+
+
 def test_quantities_of_a_model_follow_the_rules_that_are_described():
     found = described()
     patterns = [re.escape(rule['name']).replace('NAME', r'\w+') for rule in found['quantities'] if rule['of'] != 'coordinate']

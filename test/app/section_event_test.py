@@ -19,7 +19,7 @@ def test_event_sections_refuse_what_they_cannot_be():
     says(refused(2, 'poincare', 'belt', '--section', 'event'), '--event KIND')
     says(refused(2, 'poincare', 'belt', '--section', 'event', '--event', 'stik'), "'stik'", 'slip+, slip-, stick')
     says(refused(2, 'poincare', 'belt', '--section', 'event', '--event', 'stick:wall'), "no contact 'wall'", 'belt')
-    says(refused(2, 'poincare', 'vibro-impact', '--event', 'stick'), '--event belongs to --section event')
+    says(refused(2, 'poincare', 'vibro-impact', '--event', 'stick'), '--event: only with --section event')
     says(refused(2, 'poincare', 'belt', '--section', 'event', '--event', 'stick', '--stop', 'x'), '--stop')
     says(refused(3, 'poincare', 'belt', '--section', 'event', '--event', 'graze'), 'no such event in 10000 periods')
 

@@ -247,9 +247,10 @@ bool Arguments::parse(std::vector<std::string> words) {
     throw InputError(one_line(error.what()) + " (see " + parser_->app.get_name() + " --help)");
   }
   for (const auto& convert : parser_->conversions) convert();
-  parser_->check_rules();
   return true;
 }
+
+void Arguments::check_rules() const { parser_->check_rules(); }
 
 std::string number_advice(const std::string& text) {
   const std::size_t digits = text.find_first_not_of("+-.");

@@ -48,8 +48,7 @@ class Arguments {
   struct Parser;
 
  public:
-  /// An option that was declared, to say beside which others it has a meaning (ArgumentFact::with, without). `parse`
-  /// refuses what breaks these rules.
+  /// An option that was declared, to say beside which others it has a meaning (ArgumentFact::with, without).
   class Declared {
    public:
     Declared(Parser& parser, std::size_t index) : parser_(parser), index_(index) {}
@@ -102,6 +101,8 @@ class Arguments {
 
   /// Reads the words after the verb. @returns false if help was asked for. @throws InputError of one line
   [[nodiscard]] bool parse(std::vector<std::string> words);
+  /// What was read keeps the rules between options. @throws InputError of one line
+  void check_rules() const;
 
  private:
   std::unique_ptr<Parser> parser_;

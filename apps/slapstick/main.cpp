@@ -81,6 +81,7 @@ int run(const std::vector<std::string>& words) {
   Arguments arguments(verb.name, verb.summary);
   const Action action = verb.add(arguments);
   if (!arguments.parse({words.begin() + 1, words.end()})) return print(arguments.help());
+  arguments.check_rules();
   return action(Context{stop_requested()});
 }
 

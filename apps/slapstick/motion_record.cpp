@@ -28,17 +28,21 @@ void MotionRecord::keep(Instant from, Instant to) {
   greatest_.assign(shown_.numbers.size(), -std::numeric_limits<double>::infinity());
   stretches_.clear();
   moments_.clear();
+  instant_.reset();
 }
 
-double MotionRecord::number(std::size_t k, const std::vector<double>& quantities) const {
-  double sum = 0.0;
-  for (const auto& [quantity, factor] : shown_.numbers[k].terms) sum += factor * quantities[quantity];
-  return sum;
-}
-
-std::vector<double> MotionRecord::numbers(const std::vector<double>& quantities) const {
-  std::vector<double> all;
-  for (std::size_t k = 0; k < shown_.numbers.size(); ++k) all.push_back(number(k, quantities));
+std::vector<double> MotionRecord::numbers(Instant now, const State& state,
+                                          const std::vector<double>& quantities) const {
+  std::vector<double> found = quantities;
+  if (shown_.observer) {
+    const auto own = static_cast<std::ptrdiff_t>(shown_.observer->quantities().size());
+    const std::vector<double>& more =
+        shown_.observer->read(now.seconds(system_.period()), state, {quantities.end() - own, quantities.end()});
+    found.insert(found.end(), more.begin(), more.end());
+  }
+  std::vector<double> all(shown_.numbers.size(), 0.0);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const auto& [index, factor] : shown_.numbers[k].terms) all[k] += factor * found[index];
   return all;
 }
 
@@ -81,15 +85,17 @@ void MotionRecord::read(const Motion& motion, double from, double to, double sta
   const double length = to - from;
   const double wished = length * std::max(per_window * system_.windows_per_period(), per_period);
   const auto count = static_cast<std::size_t>(std::clamp(wished, least_samples, most_samples));
+  State state(2 * static_cast<std::size_t>(system_.model().size()));
   dense_t_.clear();
   for (std::vector<double>& column : dense_) column.clear();
   for (std::size_t i = 0; i <= count; ++i) {
     const double t = from + length * static_cast<double>(i) / static_cast<double>(count);
-    const std::vector<double>& quantities =
-        reader_.within(motion, std::clamp((t - start) * system_.period(), 0.0, motion.segment().duration));
+    const double within = std::clamp((t - start) * system_.period(), 0.0, motion.segment().duration);
+    if (shown_.observer) motion.sample(within, state);
+    const std::vector<double> all = numbers(Instant{from_.period, 0.0}.plus(t), state, reader_.within(motion, within));
     dense_t_.push_back(t);
     for (std::size_t k = 0; k < dense_.size(); ++k) {
-      const double value = number(k, quantities);
+      const double value = all[k];
       dense_[k].push_back(value);
       least_[k] = std::min(least_[k], value);
       greatest_[k] = std::max(greatest_[k], value);
@@ -155,13 +161,34 @@ void MotionRecord::add_segment(const Motion& motion) {
   note_phase(segment.mode, from, to);
 }
 
+/// Takes back how the instant's earlier events went on.
+void MotionRecord::join_jumps(const std::vector<double>& after) {
+  t_.resize(points_);
+  for (std::vector<double>& column : values_) column.resize(points_);
+  const auto first = moments_.begin() + static_cast<std::ptrdiff_t>(first_moment_);
+  moments_.erase(std::remove_if(first, moments_.end(), [](const Moment& one) { return !one.ours; }), moments_.end());
+  for (std::size_t k = first_moment_; k < moments_.size(); ++k) moments_[k].after = after;
+}
+
+/// Events at one instant are one jump: what is between them is no motion.
 void MotionRecord::add_event(const Motion& motion) {
   const Event& event = motion.event();
   if (event.time < from_ || event.time > to_) return;
+  const auto state = motion.before();
   const bool known =
       event.kind == EventKind::impact || event.kind == EventKind::graze || event.kind == EventKind::chatter;
   const bool ours = known && ranges::find(shown_.contacts, event.contact) != shown_.contacts.end();
-  Moment moment{event.kind, ours, time(event.time), numbers(reader_.before(motion)), numbers(reader_.now(motion))};
+  Moment moment{event.kind, ours, time(event.time),
+                numbers(event.time, State(state.begin(), state.end()), reader_.before(motion)),
+                numbers(event.time, motion.state(), reader_.now(motion))};
+  if (instant_ != event.time) {
+    instant_ = event.time;
+    before_ = moment.before;
+    points_ = t_.size();
+    first_moment_ = moments_.size();
+  }
+  moment.before = before_;
+  join_jumps(moment.after);
   const bool jumps = apart(moment.before, moment.after);
   if (jumps && !t_.empty()) push(lifted, std::vector<double>(shown_.numbers.size(), lifted));
   if (jumps) push(moment.t, moment.after);

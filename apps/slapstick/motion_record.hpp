@@ -2,6 +2,7 @@
 /// A stretch of a motion as curves: few points where they are straight, many where they bend; with its events, and the
 /// phases in which a contact sticks or touches.
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "shown_motion.hpp"
@@ -57,14 +58,15 @@ class MotionRecord {
   using Columns = std::vector<std::vector<double>>;
 
   [[nodiscard]] double time(Instant instant) const { return instant.since({from_.period, 0.0}); }
-  [[nodiscard]] double number(std::size_t k, const std::vector<double>& quantities) const;
-  [[nodiscard]] std::vector<double> numbers(const std::vector<double>& quantities) const;
+  [[nodiscard]] std::vector<double> numbers(Instant now, const State& state,
+                                            const std::vector<double>& quantities) const;
   [[nodiscard]] bool apart(const std::vector<double>& a, const std::vector<double>& b) const;
   [[nodiscard]] Phase phase(ModeId mode);
   void read(const Motion& motion, double from, double to, double start);
   void keep_bends(std::size_t first, std::size_t last, std::vector<bool>& kept) const;
   void note_phase(ModeId mode, double from, double to);
   void push(double t, const std::vector<double>& numbers);
+  void join_jumps(const std::vector<double>& after);
 
   const System& system_;
   ShownMotion shown_;
@@ -78,6 +80,9 @@ class MotionRecord {
   std::vector<double> least_, greatest_;
   std::vector<Stretch> stretches_;
   std::vector<Moment> moments_;
+  std::optional<Instant> instant_;  ///< of the last event, and what there was before its first one
+  std::vector<double> before_;
+  std::size_t points_ = 0, first_moment_ = 0;
   std::map<ModeId, Phase> phases_;
 };
 

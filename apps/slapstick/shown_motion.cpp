@@ -1,7 +1,9 @@
 /// Says what a picture of a motion shows.
 #include "shown_motion.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "axis_text.hpp"
 #include "base/ranges.hpp"
@@ -85,29 +87,63 @@ ShownMotion shown_pair(const RelativeMotion& pair, const ChosenModel& chosen) {
   return shown;
 }
 
+namespace {
+
+/// The numbers of --show, each once.
+class Named {
+ public:
+  Named(const ChosenModel& chosen, ShownMotion& shown)
+      : chosen_(chosen), all_(quantities(chosen.definition, chosen.overrides)), shown_(shown) {}
+
+  int index_of(const std::string& name) {
+    const auto known = ranges::find(names_, name);
+    if (known == names_.end()) add(name);
+    return static_cast<int>(ranges::find(names_, name) - names_.begin());
+  }
+
+  /// After all: the observer's quantities are the last, and observables behind them.
+  void add_observer() {
+    if (observed_.empty()) return;
+    shown_.observer = std::make_shared<Observer>(chosen_.definition.observer(chosen_.overrides));
+    for (const Quantity& one : shown_.observer->quantities()) shown_.of.push_back(one);
+    for (const auto& [number, observable] : observed_) shown_.numbers[number].terms = {{shown_.of.size() + observable}};
+  }
+
+ private:
+  void add(const std::string& name) {
+    const std::vector<Observable>& observables = chosen_.definition.observables();
+    const auto observable = ranges::find(observables, name, &Observable::name);
+    names_.push_back(name);
+    if (observable == observables.end()) return shown_.numbers.push_back(number_of(name, all_, chosen_.model, shown_));
+    observed_.emplace_back(shown_.numbers.size(), static_cast<std::size_t>(observable - observables.begin()));
+    shown_.numbers.push_back({with_unit(symbols(name), observable->unit), {}, {}});
+  }
+
+  const ChosenModel& chosen_;
+  std::vector<Quantity> all_;
+  ShownMotion& shown_;
+  std::vector<std::string> names_;
+  std::vector<std::pair<std::size_t, std::size_t>> observed_;  ///< number, observable
+};
+
+}  // namespace
+
 ShownMotion shown_by_name(const std::string& text, const std::vector<int>& contacts, const ChosenModel& chosen) {
-  const std::vector<Quantity> all = quantities(chosen.definition, chosen.overrides);
   ShownMotion shown{.contacts = contacts, .time = time_axis(chosen)};
-  std::vector<std::string> names;
-  const auto index_of = [&](const std::string& name) {
-    const auto known = ranges::find(names, name);
-    if (known != names.end()) return static_cast<int>(known - names.begin());
-    shown.numbers.push_back(number_of(name, all, chosen.model, shown));
-    names.push_back(name);
-    return static_cast<int>(names.size()) - 1;
-  };
+  Named named(chosen, shown);
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string one = text.substr(begin, end - begin);
     begin = end + 1;
     const std::size_t colon = one.find(':');
     if (colon == std::string::npos) {
-      shown.panels.push_back({ShownPanel::time, index_of(one)});
+      shown.panels.push_back({ShownPanel::time, named.index_of(one)});
     } else {
-      const int x = index_of(one.substr(0, colon));
-      shown.panels.push_back({x, index_of(one.substr(colon + 1))});
+      const int x = named.index_of(one.substr(0, colon));
+      shown.panels.push_back({x, named.index_of(one.substr(colon + 1))});
     }
   }
+  named.add_observer();
   constexpr std::size_t most = 12;
   if (shown.panels.size() > most) throw InputError("--show: a picture has at most 12 panels");
   return shown;

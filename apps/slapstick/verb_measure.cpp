@@ -37,7 +37,8 @@ int run(const Options& all, const Context& context) {
   if (!(found.duration > 0.0)) return interrupted;  // Ctrl-C before anything was measured
   if (!all.sensitivity.empty() && !span->cycle)
     throw InputError(
-        "--sensitivity: only for a cycle, and the motion settles on none: choose an orbit, as by --orbit 1-1");
+        "--sensitivity: only for a cycle, and the motion settles on none, or on one of a family, which has no "
+        "derivative; --orbit 1-1 chooses another");
   const Sensitivity rates =
       span->cycle ? sensitivity_of(all.sensitivity, chosen, span->cycle->orbit, wanted) : Sensitivity{};
   Json json = Json::object(), parameters = Json::object();

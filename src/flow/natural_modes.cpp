@@ -28,7 +28,7 @@ Eigen::MatrixXd free_directions(const mode::Frame& frame, const mode::ContactSta
     if (states.stops[i] == mode::StopState::closed) held.push_back(frame.stops[i].own);
   for (std::size_t i = 0; i < states.frictions.size(); ++i)
     if (states.frictions[i] == mode::FrictionState::stick) held.push_back(frame.frictions[i].own);
-  for (const mode::SliderRow& row : frame.sliders) held.push_back(row.own);
+  for (const mode::SliderRow& row : frame.sliders) held.push_back(row.own);  // at rest, or with no force of its own
   if (held.empty()) return Eigen::MatrixXd::Identity(frame.n, frame.n);
   Eigen::MatrixXd G(static_cast<Eigen::Index>(held.size()), frame.n);
   for (std::size_t i = 0; i < held.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = frame.dependence.row(held[i]);

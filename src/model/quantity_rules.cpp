@@ -27,7 +27,7 @@ constexpr std::array known_rules = {
     QuantityRule{Of::compliant_stop, Kind::relative, "w_NAME", "relative velocity of compliant stop NAME"},
     QuantityRule{Of::compliant_stop, Kind::force, "F_NAME", "press of compliant stop NAME: 0 when it does not act"},
     QuantityRule{Of::compliant_stop, Kind::power, "power_NAME", "power that compliant stop NAME dissipates"},
-    QuantityRule{Of::characteristic, Kind::relative, "w_NAME", "relative velocity of characteristic NAME"},
+    QuantityRule{Of::characteristic, Kind::relative, "w_NAME", "relative velocity of characteristic or Jenkins element NAME"},
     QuantityRule{Of::characteristic, Kind::force, "F_NAME", "force of characteristic or Jenkins element NAME"},
     QuantityRule{Of::characteristic, Kind::power, "power_NAME",
                  "power that characteristic or Jenkins element NAME dissipates"},

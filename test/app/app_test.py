@@ -269,7 +269,7 @@ def test_physical_tables_are_the_models_times_its_scale():
             for name, value, number in zip(names, row, other):
                 assert number == value if factors[name] is None else abs(float(number) - factors[name] * float(value)) <= 1e-15 * abs(float(number))
     assert headings == ['time [s]', 'x1 [mm]', 'v1 [mm/s]', 'x2 [mm]', 'v2 [mm/s]', 'mode', 'slip [m/s]']
-    says(refused(2, *words, '--physical'), '--physical', 'neither is given')
+    says(refused(2, *words, '--physical'), '--physical', 'only with --events or --trajectory')
     says(refused(2, 'simulate', 'vibro-impact', '--physical', '--events', 'x.csv'), '--physical', 'no [scale]')
 
 

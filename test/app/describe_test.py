@@ -55,18 +55,20 @@ def given(argument):
     return [name, str(argument['least']) if kind == 'count' else '0.1']
 
 
-def beside(verb, argument):
-    """What an option needs: the model, what is required, and the first of each group of others."""
-    words, names = [], {one['name']: one for one in verb['arguments']}
+def needed(verb, argument):
+    """What an option needs, by name: the model, what is required, and the first of each group of others."""
+    words, names = {}, {one['name']: one for one in verb['arguments']}
     for one in verb['arguments']:
         if one.get('required') and one['name'] != argument['name']:
-            words += ['vibro-impact'] if one['kind'] == 'positional' else given(one)
+            words[one['name']] = ['vibro-impact'] if one['kind'] == 'positional' else given(one)
     for group in argument.get('with', []):
-        if group[0] not in names:  # "--level full"
-            words += group[0].split(' ')
-        elif group[0] not in words:
-            words += given(names[group[0]])
+        name, _, value = group[0].partition(' ')
+        words[name] = [name, value] if value else given(names[name])
     return words
+
+
+def line_of(words):
+    return sum(words.values(), [])
 
 
 def test_rules_between_options_name_options_that_there_are():
@@ -87,22 +89,25 @@ def test_an_option_is_refused_without_what_it_needs_and_with_what_it_excludes():
     for verb in described()['verbs']:
         names = {one['name']: one for one in verb['arguments']}
         for argument in verb['arguments']:
-            option, needs = argument['name'], beside(verb, argument)
+            option, needs = argument['name'], needed(verb, argument)
             if argument['kind'] == 'positional':
                 continue
             if argument.get('required'):
-                assert f"{option} {argument['value']} is required" in refused(2, verb['name'], *needs), (verb['name'], option)
+                assert f"{option} {argument['value']} is required" in refused(2, verb['name'], *line_of(needs)), (verb['name'], option)
             for group in argument.get('with', []):
-                first = group[0].split(' ')[0]
-                left = needs[:needs.index(first)] + needs[needs.index(first) + (1 if names[first]['kind'] == 'flag' else 2):]
-                line = refused(2, verb['name'], *left, *given(argument))
-                assert f"{option}: only with {' or '.join(group)}" in line, (verb['name'], line)
+                name, _, value = group[0].partition(' ')
+                left = {one: words for one, words in needs.items() if one != name}
+                if value:  # another one, not to have it by default
+                    left[name] = [name, next(word for word in names[name].get('words', ['carry', 'reset']) if word not in ' '.join(group))]
+                line = refused(2, verb['name'], *line_of(left), *given(argument))
+                is_required = not value and names[name].get('required')
+                assert (f'{name} {names[name].get("value")} is required' if is_required else f"{option}: only with {' or '.join(group)}") in line, (verb['name'], line)
                 refusals += 1
             for other in argument.get('without', []):
-                more = other.split(' ') if ' ' in other else beside(verb, names[other]) + given(names[other])
-                wanted = [word for word in more if word not in needs] if '--' in ''.join(needs) else more
-                line = refused(2, verb['name'], *needs, *wanted, *given(argument))
-                assert f'{option}: not with {other}' in line or 'not with' in line or 'only with' in line, (verb['name'], line)
+                name, _, value = other.partition(' ')
+                both = {**needs, **needed(verb, names[name]), name: [name, value] if value else given(names[name]), option: given(argument)}
+                line = refused(2, verb['name'], *line_of(both))
+                assert ': not with ' in line, (verb['name'], line)  # of either, whichever is declared first
                 refusals += 1
     assert refusals > 60
 
@@ -113,7 +118,7 @@ def test_numbers_beyond_their_range_are_refused():
             if 'range' in argument:
                 below = argument['range'].strip('([').split(',')[0]
                 value = '-1' if below in ('0', '-inf') else str(float(below) - 1)
-                line = refused(2, verb['name'], *beside(verb, argument), argument['name'], value)
+                line = refused(2, verb['name'], *line_of(needed(verb, argument)), argument['name'], value)
                 assert f"{argument['name']}: {value} is outside {argument['range']}" in line, line
 
 

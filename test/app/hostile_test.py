@@ -6,7 +6,7 @@ from program import HANGS, PROGRAM, good, main, read, refused, run, says
 
 VERBS = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]
 WITH_MODEL = [verb for verb in VERBS if 'MODEL' in good(verb, '--help')]
-NEEDED = {'diagram': ['--sweep', 'omega=1:2:2', '--impacts', '1'], 'map': ['--x', 'omega=1:2:2', '--y', 'clearance=0:1:2'], 'basins': ['--x', 'x1=-1:0:2', '--y', 'v1=-1:0:2'], 'measure': ['--of', 'x1'], 'spectrum': ['--of', 'x1']}
+NEEDED = {'diagram': ['--sweep', 'omega=1:2:2', '--impacts', '1'], 'map': ['--x', 'omega=1:2:2', '--y', 'clearance=0:1:2'], 'basins': ['--x', 'x1=-1:0:2', '--y', 'v1=-1:0:2'], 'measure': ['--of', 'x1'], 'spectrum': ['--of', 'x1'], 'continue': ['--param', 'omega', '--range', '1:2'], 'curve': ['--params', 'omega,damping_ratio', '--range', 'omega=1:2', '--range', 'damping_ratio=0:1']}
 SMALL = 'name = "m"\n[[coordinate]]\nname = "x"\nmass = 1\n'
 
 

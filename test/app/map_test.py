@@ -130,8 +130,8 @@ def test_a_refined_chart_is_the_whole_one_and_marks_what_it_filled_in():
 
 
 def test_refinement_is_refused_where_it_has_no_meaning():
-    says(refused(2, *PAPER, '--refine', '4', '--start', 'carry'), '--refine', 'every pixel of a row')
-    says(refused(2, *PAPER, '--refine', '4', '--start', '3'), '--refine', 'random starts')
+    says(refused(2, *PAPER, '--refine', '4', '--start', 'carry'), '--refine', 'only with --start reset')
+    says(refused(2, *PAPER, '--refine', '4', '--start', '3'), '--refine', 'only with --start reset')
     says(refused(2, *PAPER, '--refine', '4', '--store', 'a.db', '--shard', '1/2'), '--refine', '--shard')
     says(refused(2, *PAPER, '--refine', '4', '--store', 'a.db', '--slurm', '2'), '--refine', '--slurm')
     says(refused(2, *PAPER, '--refine', '1'), '--refine')

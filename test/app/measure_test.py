@@ -131,7 +131,7 @@ def test_columns_of_a_trajectory_are_quantities_on_the_motion():
             assert abs(apart) < 1e-12
     assert slipping > 20
     assert 'no function of time' in refused(2, 'simulate', 'vibro-impact', '--trajectory', 't.csv', '--columns', 'impulse')
-    assert 'not given' in refused(2, 'simulate', 'vibro-impact', '--columns', 'a1')
+    assert 'only with --trajectory' in refused(2, 'simulate', 'vibro-impact', '--columns', 'a1')
 
 
 def table(text):

@@ -236,6 +236,10 @@ def test_a_picture_shows_forces_and_accelerations():
     damper = os.path.join(ROOT, 'examples', 'friction-damper', 'friction_damper.toml')
     good('simulate', damper, '--periods', '40', '--window', '38:40', '--out', 's.json', '--show', 'x:F_damper', '--plot', 'f.png')
     assert abs(max(drawn('y')) - 0.05) < 1e-15 and abs(min(drawn('y')) + 0.05) < 1e-15, (max(drawn('y')), min(drawn('y')))
+    with open('o.toml', 'w', encoding='utf-8') as file:
+        file.write(read(damper) + '[[observable]]\nname = "twice"\nvalue = "2 * F_damper + 0 * time"\n')
+    good('simulate', 'o.toml', '--periods', '40', '--window', '38:40', '--out', 's.json', '--show', 'x:twice', '--plot', 'f.png')
+    assert abs(max(drawn('y')) - 0.1) < 1e-15 and abs(min(drawn('y')) + 0.1) < 1e-15, (max(drawn('y')), min(drawn('y')))
     words = ('simulate', 'vibro-impact', '--set', 'omega=0.552', '--periods', '30', '--window', '28:30', '--out', 's.json')
     good(*words, '--show', 'a1', '--plot', 'f.png', '--trajectory', 't.csv', '--samples', '2000', '--columns', 'a1')
     values = [float(row[-1]) for row in table(read('t.csv'))[1][-4001:]]

@@ -112,8 +112,8 @@ TEST(FigureFailure, the_caller_s_mistake_is_named_before_anything_is_written) {
             std::string::npos);
   EXPECT_NE(complaint({.panels = {{.x_range = Range{0, std::numeric_limits<double>::infinity()}}}}).find("x range"),
             std::string::npos);
-  EXPECT_NE(complaint({.panels = {{}}, .width_cm = 1}).find("no room"), std::string::npos);
-  EXPECT_NE(complaint({.panels = {{}}, .height_cm = 1.2}).find("no room"), std::string::npos);
+  EXPECT_NE(complaint({.panels = {{}}, .width_cm = 1}).find("too narrow for panel 1"), std::string::npos);
+  EXPECT_NE(complaint({.panels = {{}}, .height_cm = 1.2}).find("too low for row 1"), std::string::npos);
   EXPECT_NE(complaint({.panels = {{.marks = {{.label = "where?"}}}}}).find("a mark needs"), std::string::npos);
   EXPECT_NE(message<InputError>([&] { write(simple, folder.path() / ""); }).find("names no file"), std::string::npos);
   EXPECT_NE(message<InputError>([&] { write(simple, folder / "a\nb"); }).find("control character"), std::string::npos);

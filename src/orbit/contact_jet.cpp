@@ -17,12 +17,12 @@ struct Held {
 /// Changes the open numbers the least way that makes good what the dependent ones miss.
 /// @param missed  a row for each dependent number
 void make_good(const Held& held, const MatrixXd& dependence, const MatrixXd& missed, Eigen::Ref<MatrixXd> x) {
-  constexpr double structural_zero = 0x1p-40;  // of a row that follows from others that are held, by rounding
   const MatrixXd rows = dependence(held.dependent, held.open);
   std::vector<Index> own;
-  for (Index k = 0; k < rows.rows(); ++k)
-    if (rows.row(k).norm() > structural_zero * dependence.row(held.dependent[static_cast<std::size_t>(k)]).norm())
-      own.push_back(k);
+  for (Index k = 0; k < rows.rows(); ++k) {  // not those that follow from others that are held
+    const double size = dependence.row(held.dependent[static_cast<std::size_t>(k)]).norm();
+    if (rows.row(k).norm() > mode::Frame::structural_zero * size) own.push_back(k);
+  }
   if (own.empty()) return;
   x(held.open, Eigen::all) -=
       dense::LeastNorm(MatrixXd(rows(own, Eigen::all))).solve(MatrixXd(missed(own, Eigen::all)));

@@ -116,7 +116,8 @@ Json extremes_json(const orbit::Problem& problem, const orbit::Solution& solutio
 
 Json energy_json(const CycleEnergy& energy, const Model& model) {
   Json json = Json::object(), friction = Json::object(), impacts = Json::object();
-  for (std::size_t i = 0; i < energy.friction.size(); ++i) friction.set(model.frictions[i].name, energy.friction[i]);
+  const std::vector<std::string> names = friction_names(model);
+  for (std::size_t i = 0; i < names.size(); ++i) friction.set(names[i], energy.friction[i]);
   for (std::size_t i = 0; i < energy.impacts.size(); ++i) impacts.set(model.stops[i].name, energy.impacts[i]);
   json.set("input", energy.input).set("damping", energy.damping);
   json.set("friction", std::move(friction)).set("impacts", std::move(impacts)).set("balance", energy.balance());

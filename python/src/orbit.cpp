@@ -81,7 +81,8 @@ std::map<std::string, std::variant<double, std::map<std::string, double>>> energ
   const CycleEnergy energy = cycle_energy(*self.setting->problem, self.solution.orbit);
   const Model& model = self.setting->system.model();
   std::map<std::string, double> friction, impacts;
-  for (std::size_t i = 0; i < energy.friction.size(); ++i) friction[model.frictions[i].name] = energy.friction[i];
+  const std::vector<std::string> names = friction_names(model);
+  for (std::size_t i = 0; i < names.size(); ++i) friction[names[i]] = energy.friction[i];
   for (std::size_t i = 0; i < energy.impacts.size(); ++i) impacts[model.stops[i].name] = energy.impacts[i];
   return {{"input", energy.input},
           {"damping", energy.damping},

@@ -153,7 +153,7 @@ def test_a_jenkins_element_has_the_describing_function_of_its_loop():
     )
     assert model.state_names == ["x", "v", "s_pad", "v_s_pad"]
     start = {"v": -a * omega}
-    found = slapstick.measure(model, "F_pad:h1,power_pad:mean,x:max", state=start, transient=2)
+    found = slapstick.measure(model, "F_pad:h1,power_pad:mean,x:max", start=start, transient=2)
     turn = np.arccos(1 - 2 * f / (k * a))  # it slips from here to the turn
     in_phase = k * a / np.pi * (turn - 0.5 * np.sin(2 * turn))
     lost = 4 * f * (a - f / k)

@@ -133,7 +133,8 @@ void place_columns(const Figure& figure, const Grid& grid, Layout& layout) {
     panel.frame.left = c * cell + left[c];
     panel.frame.right = (c + 1) * cell - right[c];
     if (panel.frame.width() < least_frame_cm)
-      throw InputError("the picture is too narrow for panel " + std::to_string(i + 1) + ": a greater width is needed, or fewer panels");
+      throw InputError("the picture is too narrow for panel " + std::to_string(i + 1) +
+                       ": a greater width is needed, or fewer panels");
   }
 }
 
@@ -154,7 +155,8 @@ void place_rows(const Figure& figure, const Grid& grid, Layout& layout) {
   for (int r = 0; r < grid.rows; ++r) {
     const double height = free * share[r] / shares;
     if (!(height >= least_frame_cm))
-      throw InputError("the picture is too low for row " + std::to_string(r + 1) + " of its panels: a greater height is needed, or fewer rows");
+      throw InputError("the picture is too low for row " + std::to_string(r + 1) +
+                       " of its panels: a greater height is needed, or fewer rows");
     for (std::size_t i = 0; i < figure.panels.size(); ++i)
       if (grid.row(i) == r)
         layout.panels[i].frame.top = top - above[r], layout.panels[i].frame.bottom = top - above[r] - height;

@@ -218,6 +218,7 @@ bool passes_smoothly(const Model& model, const Guard& guard) {
 bool share_mass(const mode::Frame& frame, const Guard& a, const Guard& b) {
   if (!mode::of_corner(b.kind)) return acts_on(frame, a, contact_of(frame, b));
   if (!mode::of_corner(a.kind)) return acts_on(frame, b, contact_of(frame, a));
+  if (frame.slider(a.contact) != nullptr && frame.slider(b.contact) != nullptr) return false;  // each moves itself only
   const auto &push = frame.characteristics[a.contact].push, &other = frame.characteristics[b.contact].push;
   for (Eigen::Index i = 0; i < frame.d; ++i)
     if (push[i] != 0.0 && other[i] != 0.0) return true;

@@ -50,8 +50,13 @@ void Frame::choose_displacements(const Model& model) {
     shift[i] = number.shift;
     drift[i] = number.drift;
   }
-  W_inverse = dense::inverse(W.topRows(n));
-  dependence = W * W_inverse;
+  // What is next to nothing in its row is the rounding of a zero, which `reconcile` would take for a dependence.
+  const auto without_rounding = [](Matrix rows) {
+    drop_rounding(rows, rows.cwiseAbs().rowwise().maxCoeff().replicate(1, rows.cols()));
+    return rows;
+  };
+  W_inverse = without_rounding(dense::inverse(W.topRows(n)));
+  dependence = without_rounding(W * W_inverse);
   dependence.topRows(n).setIdentity();
   const auto slack = [&](const Vector& offset) {
     Matrix sum = dependence * offset.head(n) - offset;

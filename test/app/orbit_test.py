@@ -320,5 +320,15 @@ def test_what_cannot_be_is_refused_by_name():
     says(refused(2, 'orbit', *PAPER, '--seconds', '-1'), '--seconds')
 
 
+def test_the_energy_of_a_slider_has_its_name():
+    """The area of its loop, 4 f (a - f / k)."""
+    damper = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples', 'friction-damper', 'friction_damper.toml')
+    found = json.loads(good('orbit', damper, '--of', 'x:max'))
+    limit, stiffness, swing = 0.05, 0.2, found['values']['x:max']
+    energy = found['energy']
+    assert abs(energy['friction']['damper'] - 4 * limit * (swing - limit / stiffness)) < 1e-12, energy
+    assert abs(energy['input'] - energy['damping'] - energy['friction']['damper']) < 1e-12 and energy['damping'] > 0, energy
+
+
 if __name__ == '__main__':
     main({name: case for name, case in globals().items() if name.startswith('test_')})

@@ -154,6 +154,36 @@ TEST(Jenkins, RestsWhereItsPairIsHeldAtTheLimit) {
   EXPECT_EQ(system.mode_name(motion.mode_id()), "free|closed|pad:1");
 }
 
+/// Rows of pairs with ratios are inverted with rounding, which is no velocity of a slider that has turned back.
+TEST(Jenkins, TurnsBackBesideAPairWithARatio) {
+  for (const char* ratio : {"[1.5, 0.7]", "[1.5, 1.2]", "[1.7, -0.3]", "[1.6, 1.4]", "[1.6, -0.7]", "[1.3, -0.7]"}) {
+    const ModelDefinition definition =
+        file("omega = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n[[coordinate]]\nname = 'y'\nmass = 1\n" +
+             element(1, 0.2, std::string("['x', 'y']\nratio = ") + ratio, "a") +
+             element(3, 0.2, "['x', 'ground']", "b") + "[[force]]\non = 'y'\namplitude = 0.3\nphase = 2\n");
+    const System system(definition.build());
+    Motion motion(system, definition.start());
+    while (motion.advance({20, 0.0}) == Outcome::event) {
+    }
+    EXPECT_EQ(motion.time().period, 20) << ratio;
+  }
+}
+
+/// Two halves of an element begin and cease to slip at one instant, each by itself.
+TEST(Jenkins, TwoHalvesAreTheWhole) {
+  const auto found = [&](const std::string& parts) {
+    const ModelDefinition definition =
+        file("omega = 0.9\n" + std::string(body) + spring + parts + "[[force]]\non = 'x'\namplitude = 2\n");
+    return classify(System(definition.build()), definition.start());
+  };
+  const Classification whole = found(element(3, 0.4)),
+                       halves = found(element(1.5, 0.2) + element(1.5, 0.2, "['x', 'ground']", "b"));
+  EXPECT_EQ(halves.label, whole.label);
+  ASSERT_EQ(halves.multipliers.size(), whole.multipliers.size() + 1);
+  for (std::size_t i = 0; i < whole.multipliers.size(); ++i)
+    EXPECT_LT(std::abs(halves.multipliers[i] - whole.multipliers[i]), 1e-12) << i;
+}
+
 TEST(Jenkins, RefusesWhatHasNoMeaning) {
   const auto message = [&](const std::string& parts) {
     try {

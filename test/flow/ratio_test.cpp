@@ -159,5 +159,23 @@ TEST(Ratio, ThatMeansNothingIsRefusedInOneLine) {
       "stand still with the ground");
 }
 
+/// Where a belt comes to stick, a body that nothing touches stays: the rounding of 1.5 / 1.2 is no dependence.
+TEST(Ratio, RoundingOfAQuotientLetsNoBodyMove) {
+  const ModelDefinition definition = ModelDefinition::parse(
+      "name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 1\n[[coordinate]]\nname = 'x2'\nmass = 1\n"
+      "[[coordinate]]\nname = 'x3'\nmass = 1\n"
+      "[[friction]]\nname = 'fr'\nbetween = ['x1', 'x2']\nstatic = 0.3\nbelt_speed = -0.04\n"
+      "[[stop]]\nname = 'st'\nbetween = ['x1', 'x2']\nclearance = 0.1\nrestitution = 0.5\n"
+      "[[stop]]\nname = 'a'\nbetween = ['x1', 'x3']\nratio = [1.5, -1.2]\nclearance = 1\nrestitution = 0.5\n"
+      "[[stop]]\nname = 'b'\nbetween = ['x1', 'ground']\nclearance = 1\nrestitution = 0.5\n[start]\nv2 = 0.1\n",
+      "f.toml");
+  const System system(definition.build());
+  Motion motion(system, definition.start());
+  while (motion.advance(Instant{}.plus(1.0)) == Outcome::event) {
+  }
+  EXPECT_EQ(motion.state()[4], 0.0);
+  EXPECT_EQ(motion.state()[5], 0.0);
+}
+
 }  // namespace
 }  // namespace slapstick::testing

@@ -20,8 +20,9 @@ void add_energy(const System& system, const CycleEnergy& energy, Answer& answer)
   const Model& m = system.model();
   answer.numbers.push_back({"input", "", energy.input, dim::energy});
   answer.numbers.push_back({"damping", "", energy.damping, dim::energy});
-  for (std::size_t i = 0; i < energy.friction.size(); ++i)
-    answer.numbers.push_back({"friction", m.frictions[i].name, energy.friction[i], dim::energy});
+  const std::vector<std::string> names = friction_names(m);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    answer.numbers.push_back({"friction", names[i], energy.friction[i], dim::energy});
   for (std::size_t i = 0; i < energy.impacts.size(); ++i)
     answer.numbers.push_back({"impacts", m.stops[i].name, energy.impacts[i], dim::energy});
 }

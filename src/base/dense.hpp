@@ -55,7 +55,8 @@ class LeastNorm {
   std::unique_ptr<const Decomposition> decomposition_;
 };
 
-/// An estimate of 1 / (|A| |A^-1|) in the norm of columns, by PartialPivLU: not above rounding for a singular A.
+/// An estimate of 1 / (|A| |A^-1|) in the norm of columns, by PartialPivLU: not above rounding for a singular A, and 0
+/// for a pivot that is 0.
 [[nodiscard]] double reciprocal_condition(const Eigen::MatrixXd& A);
 
 /// JacobiSVD with full V, or with full U and V; singular values descending.

@@ -15,7 +15,11 @@ VectorXd solve(const MatrixXd& A, const VectorXd& b) { return A.partialPivLu().s
 VectorXcd solve_complex(const MatrixXcd& A, const VectorXcd& b) { return A.partialPivLu().solve(b); }
 double determinant(const MatrixXd& A) { return A.partialPivLu().determinant(); }
 MatrixXd inverse(const MatrixXd& A) { return A.inverse(); }
-double reciprocal_condition(const MatrixXd& A) { return A.partialPivLu().rcond(); }
+/// Eigen's estimate divides by the pivots: of one that is zero it may say anything.
+double reciprocal_condition(const MatrixXd& A) {
+  const Eigen::PartialPivLU<MatrixXd> lu(A);
+  return (lu.matrixLU().diagonal().array() == 0.0).any() ? 0.0 : lu.rcond();
+}
 
 VectorXd solve_definite(const MatrixXd& A, const VectorXd& b) { return A.llt().solve(b); }
 MatrixXd inverse_definite(const MatrixXd& A) { return A.llt().solve(MatrixXd::Identity(A.rows(), A.cols())); }

@@ -200,6 +200,52 @@ Orbit with_all(const ModeSet& set, double largest_gap, Orbit orbit) {
   return orbit;
 }
 
+/// Does a slider begin to slip at the end of a leg?
+bool begins_to_slip(const ModeSet& set, const Leg& leg) {
+  if (!mode::of_corner(leg.kind)) return false;
+  const mode::SliderRow* slider = set.frame().slider(leg.contact);
+  return slider != nullptr && slider->rests(leg.states.pieces);
+}
+
+/// Where a slider begins to slip together with another one: after that one, if it came before it, or before. What has
+/// died may have held the two together.
+std::optional<Orbit> with_slips_exchanged(const ModeSet& set, Orbit orbit, int slider) {
+  bool any = false;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    Leg& leg = orbit.shape.legs[i];
+    Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
+    if (orbit.duration(i) > 0.0 || (leg.contact != slider && before.contact != slider)) continue;
+    if (!begins_to_slip(set, before) || !begins_to_slip(set, leg) || before.contact == leg.contact) continue;
+    const Leg first = before;
+    const auto piece = orbit.shape.legs[(i + 1) % orbit.legs()].states.pieces[static_cast<std::size_t>(leg.contact)];
+    before = leg;
+    before.states = first.states;
+    leg = first;
+    leg.states.pieces[static_cast<std::size_t>(before.contact)] = piece;
+    before.tied = first.tied;
+    leg.tied = false;
+    any = true;
+  }
+  return any ? std::optional(std::move(orbit)) : std::nullopt;
+}
+
+/// With a tie for each leg that has no length and is still there: what else has died may have kept two events apart, as
+/// the slip of one slider where two have the same corners.
+std::optional<Orbit> tied_together(Orbit orbit) {
+  constexpr double no_length = 1e-12;  // of the cycle
+  bool any = false;
+  for (std::size_t i = 0; i < orbit.legs(); ++i) {
+    Leg& leg = orbit.shape.legs[i];
+    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
+    if (leg.tied || !mode::of_corner(leg.kind) || leg.kind != before.kind ||
+        std::abs(orbit.duration(i)) > no_length * (orbit.t.back() - orbit.t.front()))
+      continue;
+    any = leg.tied = true;
+    orbit.t[i + 1] = orbit.t[i];
+  }
+  return any ? std::optional(std::move(orbit)) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Orbit> sequences_of_same_orbit(const Problem& problem, const Orbit& before, const Orbit& orbit,
@@ -216,12 +262,20 @@ std::vector<Orbit> sequences_of_same_orbit(const Problem& problem, const Orbit& 
   for (const Orbit& fewer : without_impact(set, before, orbit, test))
     add(several ? without_all(set, largest(was, impact_speed), fewer) : fewer, fewer);
   for (const Orbit& more : with_impact(set, orbit, test)) add(with_all(set, largest(was, gap), more), more);
-  const std::vector<bool> dead = dead_legs(before, orbit);
+  const std::vector<bool> dead = dead_legs(before, orbit), at_once = with_ties(orbit, dead);
   ranges::copy(past_knots(set, orbit, dead), std::back_inserter(shapes));
   ranges::copy(without_legs(set, orbit, dead, !impact_speed(test)), std::back_inserter(shapes));
+  if (at_once != dead) ranges::copy(without_legs(set, orbit, at_once, !impact_speed(test)), std::back_inserter(shapes));
   if (lost > 0 && !impact_speed(test))  // another margin is used up with their speed
     ranges::copy(without_legs(set, orbit, dead, false), std::back_inserter(shapes));
-  return shapes;
+  std::vector<Orbit> all;
+  for (const Orbit& shape : shapes) {
+    if (auto tied = tied_together(shape)) all.push_back(std::move(*tied));
+    all.push_back(shape);
+    for (int slider = 0; slider < static_cast<int>(set.frame().characteristics.size()); ++slider)
+      if (auto exchanged = with_slips_exchanged(set, shape, slider)) all.push_back(std::move(*exchanged));
+  }
+  return all;
 }
 
 }  // namespace slapstick::orbit

@@ -18,28 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double hold_together = 1e-10;  ///< a residual, or what a rate leaves of one: more equations than unknowns
-
 bool within(const Touch& touch) { return touch.place == Touch::Place::within; }
-
-/// The longest entry of a step, and of what the orbit's inner states have to make good.
-double length(const Problem& problem, const DeathEquations& at, const VectorXd& step) {
-  double longest = step.cwiseAbs().maxCoeff();
-  for (const VectorXd& defect : at.orbit.defects) {
-    const VectorXd off = problem.translations().numbers(defect).cwiseQuotient(at.units.head(problem.numbers()));
-    longest = std::max(longest, off.cwiseAbs().maxCoeff());
-  }
-  return longest;
-}
-
-void move_death(const Problem& problem, const DeathEquations& at, const VectorXd& step, double fraction, Death& death) {
-  const VectorXd change = fraction * step.cwiseProduct(at.units);
-  VectorXd of_orbit = VectorXd::Zero(problem.unknowns(death.orbit.legs()));
-  of_orbit.head(at.parameter + 1) = change.head(at.parameter + 1);
-  move(problem, at.orbit, of_orbit, fraction, death.orbit);
-  for (std::size_t i = 0; i < death.touches.size(); ++i)
-    death.touches[i].t += change[at.parameter + 1 + static_cast<Index>(i)];
-}
 
 /// What the rounding of the equations makes of the parameter; infinite where they do not hold together or leave the
 /// parameter open.
@@ -57,7 +36,6 @@ double parameter_error(const Problem& problem, const Death& death) {
 /// @returns whether the Gauss-Newton method came to a solution
 bool solve_death(const Problem& problem, Death& death) {
   constexpr int most_steps = 20;
-  constexpr double step_rounding = 1e-9;  // steps below it that no longer shrink are rounding
   double before = INFINITY;
   for (int k = 0; k < most_steps; ++k) {
     const DeathEquations at(problem, death);
@@ -65,14 +43,15 @@ bool solve_death(const Problem& problem, Death& death) {
     const VectorXd step = -dense::LeastNorm(at.by).solve(at.residual);
     if (!step.allFinite()) return false;
     const double now = length(problem, at, step);
-    move_death(problem, at, step, std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff()), death);
-    if (now < enough_step || (now < step_rounding && now > 0.1 * before)) return true;
+    move(problem, at, step, std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff()), death);
+    if (now < enough_step || (now < death_rounding && now > 0.1 * before)) return true;
     before = now;
   }
   return false;
 }
 
-/// Do the events and the touches lie in order still? A cycle without events may begin anywhere.
+}  // namespace
+
 bool in_order(const Death& death) {
   if (death.orbit.shape.legs[0].ending == Ending::cut) return true;
   for (std::size_t i = 0; i < death.orbit.legs(); ++i)
@@ -81,6 +60,8 @@ bool in_order(const Death& death) {
     return !within(touch) || (touch.t > death.orbit.t[touch.leg] && touch.t < death.orbit.t[touch.leg + 1]);
   });
 }
+
+namespace {
 
 /// The farthest that an instant has moved.
 double moved(const Death& from, const Death& to) {
@@ -118,10 +99,12 @@ std::optional<LocatedDeath> solved(const Problem& problem, const Orbit& near, co
 
 std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near, const std::vector<bool>& dying) {
   for (const bool impacts_stay : {true, false}) {
-    try {
-      if (auto found = solved(problem, near, dying, impacts_stay)) return found;
-    } catch (const InputError&) {  // no model there
-    } catch (const NumericalError&) {
+    for (const std::vector<bool>& legs : {dying, with_ties(near, dying)}) {
+      try {
+        if (auto found = solved(problem, near, legs, impacts_stay)) return found;
+      } catch (const InputError&) {  // no model there
+      } catch (const NumericalError&) {
+      }
     }
   }
   return std::nullopt;

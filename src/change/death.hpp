@@ -23,6 +23,9 @@ struct LocatedDeath {
   std::size_t leg = 0;  ///< the longest of the dying ones
 };
 
+/// Do the events and the touches lie in order still? A cycle without events may begin anywhere.
+[[nodiscard]] bool in_order(const Death& death);
+
 /// The death near an orbit of a branch.
 /// @param dying  of each leg of `near`: does it die?
 /// @returns empty if what remains is no orbit of a shorter sequence, if its equations do not determine the parameter or

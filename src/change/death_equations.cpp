@@ -1,7 +1,10 @@
 /// Linearises the equations of a death: the orbit's own, and the guards at its touches.
 #include "change/death_equations.hpp"
 
+#include <algorithm>
 #include <limits>
+
+#include "orbit/kept.hpp"
 
 namespace slapstick::orbit {
 namespace {
@@ -20,8 +23,7 @@ class Rows {
   Rows(const Problem& problem, const Death& death, const Linearised& at)
       : problem_(problem), death_(death), at_(at), set_(problem.family(), death.orbit.values) {
     Index count = at.residual.size();
-    for (const Touch& touch : death.touches)
-      count += static_cast<Index>(touch.guards.size()) + (touch.place == Place::within ? 1 : 0);
+    for (const Touch& touch : death.touches) count += static_cast<Index>(touch.guards.size()) + 1;
     by = MatrixXd::Zero(count, at.by.cols() + static_cast<Index>(death.touches.size()));
     residual = noise = VectorXd::Zero(count);
     add_orbit();
@@ -32,11 +34,30 @@ class Rows {
   VectorXd residual, noise;
 
  private:
+  /// The displacement that a dying contact comes to rest at, by its column of a contact state; -1 where it has none.
+  [[nodiscard]] Index resting_place(const Touch::Guard& guard) const {
+    const mode::Frame& frame = set_.frame();
+    if (mode::of_friction(guard.kind)) return frame.frictions[static_cast<std::size_t>(guard.contact)].own;
+    if (!mode::of_corner(guard.kind)) return -1;
+    const mode::SliderRow* slider = frame.slider(guard.contact);
+    return slider != nullptr ? slider->own : -1;
+  }
+
+  /// Where a contact comes to rest its touches say: what it leaves at rest is not kept as it is.
+  void release_what_dies() {
+    for (const Touch& touch : death_.touches)
+      for (const Touch::Guard& guard : touch.guards)
+        for (const Index i : at_.kept)
+          if (const Index place = resting_place(guard); place >= 0 && keeps(problem_, {i}, place))
+            by.row(static_cast<Index>(death_.orbit.legs()) + i).setZero();
+  }
+
   void add_orbit() {
     const Orbit& orbit = death_.orbit;
     used_ = at_.residual.size();
     residual.head(used_) = at_.residual;
     by.topLeftCorner(used_, at_.by.cols()) = at_.by;
+    release_what_dies();
     for (std::size_t i = 0; i < orbit.legs(); ++i)
       if (orbit.shape.legs[i].ending != Ending::cut)
         noise[static_cast<Index>(i)] = roundoff * at_.legs[i].h.by_state().row(0).cwiseAbs().dot(orbit.x[i].cwiseAbs());
@@ -73,6 +94,8 @@ class Rows {
     const double end = touch.place == Place::start ? begin
                        : touch.place == Place::end ? orbit.t[touch.leg + 1]
                                                    : touch.t;
+    if (touch.place != Place::within)  // its instant is the event's, and no unknown
+      by(used_++, at_.by.cols() + static_cast<Index>(which)) = 1.0;
     const ModeRates& mode = set_.mode(leg.states);
     const Jet X = leg_value(set_, leg, leg, orbit.x[touch.leg], begin, end).X_end;
     for (const Touch::Guard& guard : touch.guards) {
@@ -118,6 +141,31 @@ DeathEquations::DeathEquations(const Problem& problem, const Death& death)
               units_of_others.asDiagonal();
   residual = rows.residual.cwiseQuotient(level);
   noise = rows.noise.cwiseQuotient(level);
+}
+
+bool holds_together(const Problem& problem, const Death& death) {
+  return DeathEquations(problem, death).residual.cwiseAbs().maxCoeff() < hold_together;
+}
+
+double length(const Problem& problem, const DeathEquations& at, const VectorXd& step) {
+  double longest = step.cwiseAbs().maxCoeff();
+  for (const VectorXd& defect : at.orbit.defects) {
+    const VectorXd off = problem.translations().numbers(defect).cwiseQuotient(at.units.head(problem.numbers()));
+    longest = std::max(longest, off.cwiseAbs().maxCoeff());
+  }
+  return longest;
+}
+
+void move(const Problem& problem, const DeathEquations& at, const VectorXd& step, double fraction, Death& death) {
+  const Index own = at.units.size(), others = step.size() - own;
+  const VectorXd change = fraction * step.head(own).cwiseProduct(at.units);
+  VectorXd of_orbit = VectorXd::Zero(problem.unknowns(death.orbit.legs()));
+  of_orbit.head(at.parameter + 1) = change.head(at.parameter + 1);
+  of_orbit.segment(at.parameter + 1, others) =
+      fraction * step.tail(others).cwiseProduct(at.units_of_others.head(others));
+  move(problem, at.orbit, of_orbit, fraction, death.orbit);
+  for (std::size_t i = 0; i < death.touches.size(); ++i)
+    death.touches[i].t += change[at.parameter + 1 + static_cast<Index>(i)];
 }
 
 }  // namespace slapstick::orbit

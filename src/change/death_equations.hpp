@@ -19,4 +19,16 @@ struct DeathEquations {
   Eigen::Index parameter = 0;  ///< the first parameter's column
 };
 
+constexpr double hold_together = 1e-10;  ///< a residual, or what a rate leaves of one: more equations than unknowns
+constexpr double death_rounding = 1e-9;  ///< steps of Newton's method below it that no longer shrink are rounding
+
+/// Are the equations met?
+[[nodiscard]] bool holds_together(const Problem& problem, const Death& death);
+
+/// The longest entry of a step, and of what the orbit's inner states have to make good.
+[[nodiscard]] double length(const Problem& problem, const DeathEquations& at, const Eigen::VectorXd& step);
+
+/// Moves a death by a fraction of a step, in units of the unknowns and then of the parameters that follow the first.
+void move(const Problem& problem, const DeathEquations& at, const Eigen::VectorXd& step, double fraction, Death& death);
+
 }  // namespace slapstick::orbit

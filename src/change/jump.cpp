@@ -97,7 +97,7 @@ MotionBeyond run_beyond(const Problem& problem, const PathPoint& change, double 
   MotionBeyond result;
   for (const double distance : {1e-6, 1e-5, 1e-4}) {
     Course course = course_behind(problem, change, sense * distance * range, stop);
-    result.family = course.settled && !course.settled->isolated();
+    result.family = course.settled && course.settled->family > static_cast<int>(change.watched.kept.size());
     if (course.settled) {
       const Orbit& orbit = course.settled->orbit;
       const bool like = goes_on(problem, change, orbit);

@@ -286,9 +286,24 @@ std::vector<HalfBranch> find_branches_beyond(const Problem& problem, const Orbit
   return all;
 }
 
+namespace {
+
+/// Do the same numbers rest in an orbit, but elsewhere? A slider at its limit is drawn along as the parameter goes on:
+/// where a motion leaves it says nothing of where others do.
+bool rests_elsewhere(const Problem& problem, const PathPoint& from, const PathPoint& point) {
+  constexpr double rounding = 1e-11;  // of the orbit's size: of what rests only its conversion from a user's state
+  if (point.watched.kept != from.watched.kept) return false;
+  const VectorXd moved = problem.translations().numbers(point.orbit.x[0] - from.orbit.x[0]);
+  return ranges::any_of(point.watched.kept,
+                        [&](Eigen::Index i) { return std::abs(moved[i]) > rounding * from.units[i]; });
+}
+
+}  // namespace
+
 /// Just beyond a singular change a multiplier may be very near 1. A family's own equations are singular: they lead
 /// nowhere.
-bool one_of_family(const Problem& problem, const PathPoint& point, double range) {
+bool one_of_family(const Problem& problem, const PathPoint& from, const PathPoint& point, double range) {
+  if (rests_elsewhere(problem, from, point)) return true;
   if (isolated(point.watched.multipliers)) return false;
   const auto leads_out = [&](double length) {
     const std::optional<PathPoint> next = step_to(problem, point, length, range);
@@ -297,9 +312,14 @@ bool one_of_family(const Problem& problem, const PathPoint& point, double range)
   return !leads_out(1e-3) && !leads_out(1e-4);
 }
 
+bool rests_more(const PathPoint& before, const PathPoint& next) {
+  return next.watched.kept.size() > before.watched.kept.size();
+}
+
 bool begins_family(const Problem& problem, const Orbit& before, const PathPoint& change, const TestValue& test) {
   try {
-    const auto of_family = [&](const Orbit& shape) { return !describe(problem, shape, nullptr).isolated(); };
+    const auto kept = static_cast<int>(change.watched.kept.size());
+    const auto of_family = [&](const Orbit& shape) { return describe(problem, shape, nullptr).family > kept; };
     return ranges::any_of(sequences_of_same_orbit(problem, before, change.orbit, test), of_family);
   } catch (const NumericalError&) {  // a shape whose modes have no such guards
     return false;

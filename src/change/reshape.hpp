@@ -52,9 +52,13 @@ struct HalfBranch {
 [[nodiscard]] std::vector<HalfBranch> branches_at(const Problem& problem, const PathPoint& change,
                                                   const std::vector<Orbit>& shapes, double range);
 
-/// Has a branch come to orbits of a family, which lie beside each other at the same parameter, as those of a mass that
-/// sticks anywhere in an interval?
-[[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& point, double range);
+/// Has a branch come to orbits that lie beside each other at the same parameter, so that they cannot be followed? Those
+/// in which something rests where it did at `from` can.
+[[nodiscard]] bool one_of_family(const Problem& problem, const PathPoint& from, const PathPoint& point, double range);
+
+/// Does more rest all along than before? The orbit is one of a family: the one whose sliders and bodies rest where they
+/// came to rest.
+[[nodiscard]] bool rests_more(const PathPoint& before, const PathPoint& next);
 
 /// Is the orbit at a change, in another shape, one of a family? Those lie beside it at the same parameter: there is no
 /// branch to follow.

@@ -8,6 +8,7 @@
 #include "change/jump.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
+#include "orbit/kept.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/short_legs.hpp"
 
@@ -53,6 +54,42 @@ void keep_born(const Change& change, const UnfoldOptions& options, std::vector<H
   found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(led), found.end(), far), found.end());
 }
 
+/// What rests all along and comes to a limit: its displacement in a contact state, and the way between its limits in
+/// the units of the margin. The displacement is -1 where nothing does.
+struct AtLimit {
+  Eigen::Index displacement = -1;
+  double between = 0.0;
+  bool slider = false;
+};
+
+AtLimit at_limit(const Problem& problem, const TestValue& test) {
+  if (test.test != Test::guard) return {};
+  const mode::Frame& frame = problem.base().compiled().frame();
+  const auto contact = static_cast<std::size_t>(test.contact);
+  if (mode::of_corner(test.kind))
+    if (const mode::SliderRow* slider = frame.slider(test.contact))
+      return {slider->own, slider->high - slider->low, true};
+  if (test.kind != mode::GuardKind::stick_above && test.kind != mode::GuardKind::stick_below) return {};
+  const FrictionContact& friction = problem.base().model().frictions[contact];
+  if (friction.normal || friction.static_friction != friction.kinetic_friction) return {};  // friction may jump
+  return {frame.frictions[contact].own, 2.0 * friction.static_friction, false};
+}
+
+/// Does a slider or a body that rests all along come to one of its limits? Beyond, it is drawn along: the orbits there
+/// are of a family, and in each it rests elsewhere. At both limits it begins to slip.
+bool is_drawn_along(const Problem& problem, const Change& change, bool slider) {
+  constexpr double off_limit = 1e-6;  // of the way between the limits
+  const TestValue& at = change.test;
+  const AtLimit limit = at_limit(problem, at);
+  if (limit.displacement < 0 || limit.slider != slider) return false;
+  if (!keeps(problem, change.at.watched.kept, limit.displacement)) return false;
+  return ranges::none_of(change.at.watched.tests, [&](const TestValue& test) {
+    const bool other = test.contact == at.contact && test.kind != at.kind &&
+                       at_limit(problem, test).displacement == limit.displacement;
+    return other && test.value <= off_limit * limit.between;
+  });
+}
+
 /// No orbit begins there.
 void explain(const Problem& problem, const Orbit& before, const Change& change, double range, bool family,
              Unfolding& found) {
@@ -64,6 +101,8 @@ void explain(const Problem& problem, const Orbit& before, const Change& change, 
   } else if (departs(problem, change.at, change.test, range)) {
     found.passage = Passage::jump;
     found.jump = Jump{Jump::Kind::departs, {}, 0};
+  } else if (is_drawn_along(problem, change, false)) {
+    found.passage = Passage::family;
   }
 }
 
@@ -86,7 +125,9 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
   Unfolding found;
   std::vector<HalfBranch>& branches = found.branches;
   branches = find_branches_beyond(problem, before, change.at, change.test, options.range, options.stop);
-  const auto of_family = [&](const HalfBranch& next) { return one_of_family(problem, next.point, options.range); };
+  const auto of_family = [&](const HalfBranch& next) {
+    return one_of_family(problem, change.at, next.point, options.range);
+  };
   bool family = std::erase_if(branches, of_family) > 0;
   std::erase_if(branches, [&](const HalfBranch& next) { return is_chatter_as_it_came(problem, before, next); });
   keep_born(change, options, branches);
@@ -94,6 +135,10 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
   const auto breaks = [&](const HalfBranch& next) { return breaks_symmetry(problem, next.point.orbit, before); };
   std::stable_partition(branches.begin(), branches.end(), [&](const HalfBranch& next) { return !breaks(next); });
   const bool own = !branches.empty() && !breaks(branches.front());
+  if (!own && is_drawn_along(problem, change, true)) {
+    found.passage = Passage::family;
+    return found;
+  }
   if (!own && !family && options.simulate) {
     MotionBeyond motion = run_beyond(problem, change.at, options.range, options.stop);
     found.jump = std::move(motion.jump);
@@ -116,6 +161,7 @@ Unfolding unfold(const Problem& problem, const Orbit& before, const Change& chan
   }
   const HalfBranch& next = branches.front();
   found.passage = next.folds                             ? Passage::fold
+                  : rests_more(change.at, next.point)    ? Passage::family
                   : same_cycle(before, next.point.orbit) ? Passage::same_events
                                                          : Passage::persistence;
   return found;

@@ -64,22 +64,38 @@ void take_state(mode::ContactStates& states, const mode::ContactStates& from, co
   if (mode::of_bound(crossing.kind)) states.compliant[at] = from.compliant[at];
 }
 
-/// The first leg ends as a line is crossed, and the last of the dead legs as the line is crossed back: both
-/// crossings go, what lies between them stays. @returns false if it is not so
+/// Does a leg begin in another state of a contact than this one?
+bool has_changed(const Leg& leg, const mode::ContactStates& from, const Leg& crossing) {
+  mode::ContactStates as_before = leg.states;
+  take_state(as_before, from, crossing);
+  return !(as_before == leg.states);
+}
+
+/// Is a line crossed at the end of one leg and crossed back at that of another one, so that the contact is as it was? A
+/// slider that comes to rest with its pair turns back without an event of its own.
+bool crosses_and_back(const std::vector<Leg>& legs, std::size_t there, std::size_t back) {
+  const Leg& first = legs[there];
+  return mode::of_crossing(first.kind) && has_changed(legs[back], first.states, first) &&
+         !has_changed(legs[back + 1], first.states, first);
+}
+
+/// Among the events from the end of the first leg to that of the last dead one a line is crossed and crossed back: both
+/// crossings go, what lies between them stays. @returns false if there are none
 bool uncross(Shrunk& turned) {
   std::vector<Leg>& legs = turned.orbit.shape.legs;
-  const Leg first = legs[0];
-  const std::size_t run = turned.run(), next = (run + 1) % legs.size();
-  if (run < 2 || !mode::of_crossing(first.kind) || !mode::of_crossing(legs[run].kind) || legs[run].kind == first.kind ||
-      legs[run].contact != first.contact)
-    return false;
-  mode::ContactStates as_before = legs[next].states;
-  take_state(as_before, first.states, first);
-  if (!(as_before == legs[next].states)) return false;
-  for (std::size_t i = 1; i <= run; ++i) take_state(legs[i].states, first.states, first);
-  turned.leave_out(0, 1);
-  turned.leave_out(static_cast<std::ptrdiff_t>(run) - 1, 1);
-  return true;
+  const std::size_t run = turned.run();
+  for (std::size_t there = 0; there < run; ++there)
+    for (std::size_t back = there + 1; back <= run; ++back) {
+      if (!crosses_and_back(legs, there, back)) continue;
+      const Leg first = legs[there];
+      const bool own_event = mode::of_crossing(legs[back].kind) && legs[back].contact == first.contact;
+      for (std::size_t i = there + 1; i <= back; ++i) take_state(legs[i].states, first.states, first);
+      turned.leave_out(static_cast<std::ptrdiff_t>(there), 1);
+      if (own_event) turned.leave_out(static_cast<std::ptrdiff_t>(back) - 1, 1);
+      legs[there].tied = there > 0 || first.tied;
+      return true;
+    }
+  return false;
 }
 
 /// One event in place of two: the end of the first leg, and that of the last dead leg after it. @returns false

@@ -14,6 +14,7 @@
 #include "continuation/special.hpp"
 #include "continuation/two_ways.hpp"
 #include "orbit/extent.hpp"
+#include "orbit/kept.hpp"
 #include "orbit/same_motion.hpp"
 #include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
@@ -292,7 +293,7 @@ Branch follow(const Problem& posed, const Orbit& start, const ContinuationOption
   const double range = options.to - options.from;
   const System system(problem.family().model(start.values));
   const Solution solution = describe(problem, start, &system);
-  if (!solution.isolated())
+  if (solution.family > kept_numbers(problem, start))
     throw NumericalError("the orbit is one of a family (a multiplier is 1): orbits lie beside it at the same " +
                          problem.family().names[0] + ", and there is no branch to follow");
   const PathPoint first = point_of(problem, start, range, {});

@@ -7,6 +7,7 @@
 #include "change/change_kind.hpp"
 #include "continuation/crossing_curve.hpp"
 #include "continuation/curve_events.hpp"
+#include "continuation/death_curve.hpp"
 #include "continuation/special.hpp"
 #include "continuation/two_ways.hpp"
 #include "orbit/path.hpp"
@@ -359,9 +360,8 @@ Curve CurveFollower::run(Orbit orbit, double sign) {
 
 Curve locus(const Problem& problem, const SpecialPoint& point, const CurveOptions& options) {
   if (problem.parameters() != 2) throw InputError("curve: a family of two parameters is needed");
-  if (point.occurrence == Occurrence::death || (point.death && point.passage == Passage::family))
-    throw InputError("curve: at " + problem.family().names[0] + " = " + shown(point.value) +
-                     " the motion dies out, where its equations are singular: there is no curve to follow");
+  if (point.death && (point.occurrence == Occurrence::death || point.passage == Passage::family))
+    return joined(death_curve(problem, point, options, -1.0), death_curve(problem, point, options, 1.0), &Curve::met);
   if (point.type == SpecialType::BP)
     return joined(crossing_curve(problem, point, options, -1.0), crossing_curve(problem, point, options, 1.0),
                   &Curve::met);

@@ -234,6 +234,15 @@ bool Follower::end_at(const PathPoint& at, SpecialPoint special) {
   return false;
 }
 
+namespace {
+
+/// .. also of one in which what has died out rests.
+bool is_of_family(const Problem& problem, const PathPoint& at, const PathPoint& next, double range) {
+  return rests_more(at, next) || one_of_family(problem, at, next, range);
+}
+
+}  // namespace
+
 /// Where legs shrink to nothing together and steps lead no further: what the motion does beyond.
 /// @returns false if none shrinks
 bool Follower::die_out(PathPoint& at) {
@@ -261,7 +270,7 @@ bool Follower::die_out(PathPoint& at) {
   Unfolding found;
   std::vector<HalfBranch>& left = found.branches;
   left = branches_at(problem_, there, {special.death->orbit}, range_);
-  std::erase_if(left, [&](const HalfBranch& next) { return one_of_family(problem_, next.point, range_); });
+  std::erase_if(left, [&](const HalfBranch& next) { return is_of_family(problem_, at, next.point, range_); });
   find_met(problem_, at.orbit, found);
   if (!found.others.empty()) {
     name_change(found.others.front(), special);
@@ -275,7 +284,7 @@ bool Follower::die_out(PathPoint& at) {
   }
   MotionBeyond beyond;
   if (special.solution.stable()) beyond = run_beyond(problem_, there, range_, options_.stop);
-  if (beyond.next && !one_of_family(problem_, beyond.next->point, range_)) {
+  if (beyond.next && !is_of_family(problem_, at, beyond.next->point, range_)) {
     special.passage = Passage::persistence;
     branch_.special.push_back(std::move(special));
     restart(at, std::move(beyond.next->point));
@@ -292,7 +301,7 @@ bool Follower::die_out(PathPoint& at) {
 bool Follower::leave_edge(PathPoint& at) {
   if (branch_.points.size() > 1 || !branch_.points.front().stable()) return false;
   MotionBeyond beyond = run_beyond(problem_, at, range_, options_.stop);
-  if (!beyond.next || one_of_family(problem_, beyond.next->point, range_)) return false;
+  if (!beyond.next || one_of_family(problem_, at, beyond.next->point, range_)) return false;
   restart(at, std::move(beyond.next->point));
   return true;
 }
@@ -334,7 +343,7 @@ bool Follower::passes_nothing(const SpecialPoint& special) const {
 /// The branch goes on beyond a change, with new events.
 /// @param between  followed back from there to the change, if other changes lie between
 void Follower::go_on(PathPoint& at, SpecialPoint special, HalfBranch next, std::optional<Branch> between) {
-  special.passage = next.folds ? Passage::fold : Passage::persistence;
+  special.passage = next.folds ? Passage::fold : rests_more(at, next.point) ? Passage::family : Passage::persistence;
   if (branch_.points.back().chatter || special.type != SpecialType::GR) {  // no change of a cascade
     ahead_.reset();
     looked_from_ = 0;

@@ -9,6 +9,7 @@
 #include "base/ranges.hpp"
 #include "orbit/cyclic.hpp"
 #include "orbit/extent.hpp"
+#include "orbit/kept.hpp"
 #include "orbit/record.hpp"
 #include "orbit/short_legs.hpp"
 #include "slapstick/base/error.hpp"
@@ -152,7 +153,7 @@ int continuum(const Problem& problem, const Orbit& orbit, const std::vector<std:
   if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < from_one; })) return 0;
   try {
     const Null null = null_vectors_at(problem, orbit);
-    int dimension = 0;
+    int dimension = kept_numbers(problem, orbit);
     for (Index j = 0; j < null.right.cols(); ++j) dimension += leads_along(problem, orbit, null, j) ? 1 : 0;
     return dimension;
   } catch (const InputError&) {

@@ -9,6 +9,9 @@
 /// have a regular solution v(s), mu(s) (Lyapunov and Schmidt). At a fold mu grows as s^2, at a crossing as s^3; orbits
 /// beside the orbit are those with mu = 0. So the direction s is one of a family if mu is rounding at a distance where
 /// s^3 is not.
+///
+/// A number that no leg moves, as of a slider that rests all along, is a direction of its own. The equations keep it as
+/// it is (Linearised::kept), and are regular: by the implicit function theorem orbits lie along it.
 #include <complex>
 #include <optional>
 

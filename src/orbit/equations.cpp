@@ -7,6 +7,7 @@
 
 #include "base/dense.hpp"
 #include "mode/numbering.hpp"
+#include "orbit/kept.hpp"
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -114,6 +115,7 @@ Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& or
   at.advance = problem.translations().take_out(defect);
   at.residual.segment(rows, problem.numbers()) = problem.translations().numbers(defect);
   at.by.middleRows(rows, problem.numbers()) = classes(problem, states);
+  keep_what_rests(problem, at);
   at.residual.tail(1)[0] = forced(orbit) ? orbit.t[k] - orbit.t[0] - orbit.shape.n : orbit.t[0];
   at.by(at.by.rows() - 1, problem.instant_column(0)) = forced(orbit) ? -1.0 : 1.0;
   if (forced(orbit)) at.by(at.by.rows() - 1, problem.instant_column(k)) = 1.0;

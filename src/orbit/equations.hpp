@@ -62,7 +62,10 @@ class Problem {
 };
 
 struct Linearised {
-  Eigen::VectorXd residual;              ///< k endings, the closing, the time: k + numbers + 1
+  Eigen::VectorXd residual;  ///< k endings, the closing, the time: k + numbers + 1
+  /// Displacements of x_0 that no leg moves, as of a slider that rests all along: such an orbit is one of a family. In
+  /// place of their closing, which holds for any value, they stay as they are.
+  std::vector<Eigen::Index> kept;
   Eigen::MatrixXd by;                    ///< its derivative by the unknowns
   std::vector<Eigen::MatrixXd> states;   ///< of x_i by the unknowns ..
   std::vector<Eigen::VectorXd> defects;  ///< .. and what x_i has to make good
@@ -135,6 +138,9 @@ struct ReturnRates {
 };
 [[nodiscard]] ReturnRates return_rates(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                                        const std::vector<LegValue>& legs);
+
+/// Takes out the multiplier nearest to 1: that of a direction which the map keeps.
+void drop_kept_direction(std::vector<std::complex<double>>& multipliers);
 
 /// Solution::multipliers. `legs`: of a linearisation of the orbit as it is; begun elsewhere it is linearised anew.
 [[nodiscard]] std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set,

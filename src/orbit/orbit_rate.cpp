@@ -2,6 +2,7 @@
 #include "orbit/orbit_rate.hpp"
 
 #include "base/dense.hpp"
+#include "orbit/kept.hpp"
 #include "slapstick/base/error.hpp"
 
 namespace slapstick::orbit {
@@ -44,6 +45,7 @@ std::vector<OrbitRate> orbit_rates(const Problem& problem, const ModeSet& set, c
         "and what comes first decides; change a parameter a little");
   const std::size_t legs = orbit.legs();
   const Linearised at = linearise(problem, set, orbit);
+  demand_off_limits(problem, set, orbit, at.kept);
   const Index own = at.by.cols() - problem.parameters();
   const VectorXd units = sizes(problem, orbit);
   MatrixXd matrix = at.by.leftCols(own) * units.head(own).asDiagonal();

@@ -95,6 +95,8 @@ PathPoint point_of(const Problem& problem, Orbit orbit, double range, const Vect
   level_rows(crossing);
   point.watched.cross = dense::determinant(crossing);
   point.watched.multipliers = multipliers(problem, set, orbit, at.legs);
+  point.watched.kept = at.kept;
+  for (std::size_t i = 0; i < at.kept.size(); ++i) drop_kept_direction(point.watched.multipliers);
   if (ranges::any_of(orbit.shape.legs, &Leg::tied)) point.watched.multipliers = distinct(point.watched.multipliers);
   point.watched.flip = flip_function(point.watched.multipliers);
   point.watched.torus = torus_function(point.watched.multipliers);

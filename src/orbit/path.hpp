@@ -29,7 +29,9 @@ struct Watched {
   double torus = 0.0;  ///< torus_function
   /// Of an orbit with tied legs each but once: those of equal machines pass the unit circle together, and a function
   /// that counts them all would be zero without a change of sign.
+  /// Without those of what is kept.
   std::vector<std::complex<double>> multipliers;
+  std::vector<Eigen::Index> kept;  ///< Linearised::kept
   std::vector<TestValue> tests;
 };
 

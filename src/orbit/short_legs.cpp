@@ -57,4 +57,14 @@ std::vector<bool> dead_legs(const Orbit& from, const Orbit& to) {
   return all;
 }
 
+std::vector<bool> with_ties(const Orbit& orbit, std::vector<bool> dead) {
+  const std::size_t legs = orbit.legs();
+  for (std::size_t i = 0; i < 2 * legs; ++i) {
+    const std::size_t after = i % legs, before = (2 * legs - 1 - i) % legs;
+    if (orbit.tied(after) && dead[(after + legs - 1) % legs]) dead[after] = true;
+    if (orbit.tied(before) && dead[(before + 1) % legs]) dead[before] = true;
+  }
+  return dead;
+}
+
 }  // namespace slapstick::orbit

@@ -23,5 +23,8 @@ namespace slapstick::orbit {
 [[nodiscard]] int shrunk_legs(const Orbit& from, const Orbit& to, double part);
 /// Which legs die on the way from one orbit of a shape to another: less than a hundredth of their length is left.
 [[nodiscard]] std::vector<bool> dead_legs(const Orbit& from, const Orbit& to);
+/// .. and the tied legs before and after them, which end at the same instant: where sliders of one pair turn back
+/// together.
+[[nodiscard]] std::vector<bool> with_ties(const Orbit& orbit, std::vector<bool> dead);
 
 }  // namespace slapstick::orbit

@@ -43,12 +43,6 @@ std::size_t most_held_leg(const ModeSet& set, const Orbit& orbit) {
   return best;
 }
 
-/// Without the multiplier of a direction that the map keeps, as that of the motion along itself, which is 1.
-void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
-  const auto nearest = ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
-  if (nearest != multipliers.end()) multipliers.erase(nearest);
-}
-
 /// Impacts, and compliant stops that begin to act at their gap, at the end of a leg.
 long points(const Leg& leg, const Leg& next) {
   if (leg.ending == Ending::cut) return 0;
@@ -87,6 +81,11 @@ void count_changes(Solution& found, const Orbit& orbit) {
 }
 
 }  // namespace
+
+void drop_kept_direction(std::vector<std::complex<double>>& multipliers) {
+  const auto nearest = ranges::min_element(multipliers, {}, [](auto m) { return std::abs(m - 1.0); });
+  if (nearest != multipliers.end()) multipliers.erase(nearest);
+}
 
 std::vector<std::complex<double>> multipliers(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                                               const std::vector<LegValue>& legs) {

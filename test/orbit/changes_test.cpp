@@ -314,15 +314,6 @@ TEST(Branch, SeesADoublingThatIsTakenBackBetweenTwoPoints) {
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(all[k], again[k], 1e-9);
 }
 
-/// A mass that sticks for ever is one of a family: there is no branch.
-TEST(Branch, OfAFamilyIsRefused) {
-  const Posed posed("coulomb-oscillator", {{"amplitude", 0.1}}, {"omega"}, {0.8});
-  const auto first = posed.settled();
-  ASSERT_TRUE(first);
-  EXPECT_FALSE(first->isolated());
-  EXPECT_THROW((void)orbit::follow(*posed.problem, first->orbit, {.from = 0.5, .to = 1.0}), NumericalError);
-}
-
 /// Below a fold of the rattle two orbits of one shape live side by side. From a guess near one, with that one taken
 /// out, Newton's method comes to the other.
 TEST(Deflation, FindsTheOtherOrbitOfAFold) {

@@ -131,29 +131,5 @@ TEST(LoopOfContacts, ABodyThatRestsBesideABeltHasAnOrbit) {
     EXPECT_LT(std::abs(settled.orbit->multipliers[i] - found.multipliers[i]), 1e-8) << i;
 }
 
-/// Of two sliders one slips and the other never does: its row of the equations is zero, which no estimate of a
-/// condition may miss. The orbit is one of a family, with the multipliers that classify finds.
-TEST(PartialSlip, HasAnOrbitOfAFamily) {
-  const auto definition = ModelDefinition::parse(
-      "name = 'm'\nomega = 1.9\n[[coordinate]]\nname = 'x'\nmass = 1\n"
-      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 0.8\n[[damper]]\nbetween = ['x', 'ground']\ncoefficient = "
-      "0.1\n"
-      "[[jenkins]]\nname = 'slips'\nbetween = ['ground', 'x']\nstiffness = 1.1\nlimit = 0.07\n"
-      "[[jenkins]]\nname = 'rests'\nbetween = ['x', 'ground']\nstiffness = 0.34\nlimit = 0.2\n"
-      "[[force]]\non = 'x'\namplitude = 0.55\n",
-      "f.toml");
-  const System system(definition.build());
-  const auto problem = orbit::pose(definition.family({}), {});
-  const orbit::Settled settled = orbit::settle(*problem, system, definition.start());
-  const Classification found = classify(system, definition.start());
-  ASSERT_TRUE(settled.orbit);
-  EXPECT_EQ(settled.orbit->label, found.label);
-  EXPECT_EQ(found.family, 1);
-  EXPECT_EQ(settled.orbit->family, 1);
-  ASSERT_EQ(settled.orbit->multipliers.size(), found.multipliers.size());
-  for (std::size_t i = 0; i < found.multipliers.size(); ++i)
-    EXPECT_LT(std::abs(settled.orbit->multipliers[i] - found.multipliers[i]), 1e-8) << i;
-}
-
 }  // namespace
 }  // namespace slapstick::test

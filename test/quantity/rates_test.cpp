@@ -173,13 +173,31 @@ TEST(Rates, OfEqualExtremesBelongToTheOneThatIsNamed) {
   EXPECT_NEAR(rate.greatest, (above.greatest - below.greatest) / (2.0 * h), 1e-3);
 }
 
-/// A mass that sticks for ever is one of a family: no derivative, and no number that looks like one.
-TEST(Rates, OfOneOfAFamilyAreRefused) {
+/// A mass that sticks for ever stays where it is: of the force that holds it the amplitude is the drive's.
+TEST(Rates, OfAMassThatFrictionHoldsAreThoseOfItsForce) {
   const ModelDefinition model = load_model("coulomb-oscillator");
   const Overrides values = {{"amplitude", 0.1}, {"omega", 0.8}};
   const SettledCycle cycle(model, values);
   ASSERT_FALSE(cycle.solution.isolated());
-  EXPECT_THROW((void)measure_rates(model, values, {"omega"}, cycle.solution.orbit, {cycle.named("x")}), NumericalError);
+  const auto rates = measure_rates(model, values, {"amplitude", "omega"}, cycle.solution.orbit,
+                                   {cycle.named("x"), cycle.named("F_friction")});
+  EXPECT_NEAR(rates[0].of[0].greatest, 0.0, 1e-15);
+  EXPECT_NEAR(rates[0].of[1].greatest, 1.0, 1e-13);
+  EXPECT_NEAR(rates[0].of[1].least, -1.0, 1e-13);
+  EXPECT_NEAR(rates[1].of[1].greatest, 0.0, 1e-13);
+}
+
+/// A ball between its spring and a wall that takes nothing has cycles of any size: no derivative, and no number that
+/// looks like one.
+TEST(Rates, OfAConservativeFamilyAreRefused) {
+  const ModelDefinition model = ModelDefinition::parse(
+      "name = 'm'\nomega = 1\n[parameters]\nk = 1\n[[coordinate]]\nname = 'x'\nmass = 1\n"
+      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 'k'\n"
+      "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.5\nrestitution = 1\n[start]\nv = 1\n",
+      "free.toml");
+  const SettledCycle cycle(model);
+  ASSERT_FALSE(cycle.solution.isolated());
+  EXPECT_THROW((void)measure_rates(model, {}, {"k"}, cycle.solution.orbit, {cycle.named("x")}), NumericalError);
 }
 
 TEST(Rates, OfUnknownNamesAndOfParametersAreRefused) {

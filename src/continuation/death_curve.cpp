@@ -1,0 +1,258 @@
+/// Deaths followed in two parameters, by arclength on their equations.
+#include "continuation/death_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/dense.hpp"
+#include "base/ranges.hpp"
+#include "change/change_kind.hpp"
+#include "change/death.hpp"
+#include "change/death_equations.hpp"
+#include "continuation/curve_events.hpp"
+#include "slapstick/base/error.hpp"
+#include "slapstick/continuation/sentences.hpp"
+
+namespace slapstick::orbit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double straightness = 0.9;   ///< least cosine between neighbouring tangents
+constexpr double least_length = 1e-7;  ///< of a step, in units of both ranges and the orbit's size
+
+class DeathCurve {
+ public:
+  DeathCurve(const Problem& problem, const SpecialPoint& point, const CurveOptions& options)
+      : problem_(problem), point_(point), options_(options) {
+    // A motion that dies out altogether has no size: that of the branch's last orbit, and 0 for no parameter.
+    problem_.set_least(sizes(problem, point.solution.orbit).head(problem.numbers()), 0.0);
+    Orbit& orbit = point_.death->orbit;  // known on a branch in the first parameter alone
+    const double own = orbit.parameter();
+    orbit.values = point.solution.orbit.values;
+    orbit.parameter() = own;
+    point_.solution.orbit = orbit;
+  }
+
+  Curve run(double sign);
+
+ private:
+  struct Place {
+    Death death;
+    VectorXd along;   ///< the tangent, of length 1: the unknowns of DeathEquations, then the second parameter
+    Index first = 0;  ///< the place of the first parameter in it
+    Watched watched;
+
+    [[nodiscard]] std::array<double, 2> rates() const { return {along[first], along[along.size() - 1]}; }
+  };
+  /// row . (all steps from a death) = length, beside the equations of the death.
+  struct Demand {
+    Eigen::RowVectorXd row;
+    double length = 0.0;
+  };
+  struct Step {
+    Demand demand;
+    double length = 0.0;
+    bool last = false;  ///< the step ends on the end of a range
+  };
+
+  [[nodiscard]] std::array<double, 2> ranges() const {
+    return {options_.to - options_.from, options_.second_to - options_.second_from};
+  }
+  [[nodiscard]] bool inside(const std::vector<double>& values) const {
+    return values[0] >= options_.from && values[0] <= options_.to && values[1] >= options_.second_from &&
+           values[1] <= options_.second_to;
+  }
+  [[nodiscard]] VectorXd units(const DeathEquations& at) const;
+  [[nodiscard]] Place place(Death death, const VectorXd& forward) const;
+  [[nodiscard]] std::optional<Death> solved(Death death, const Demand& demand) const;
+  [[nodiscard]] std::optional<Place> next(const Place& here, const Demand& demand) const;
+  [[nodiscard]] Step step_from(const Place& here, double length) const;
+  [[nodiscard]] CurvePlace watched_at(const Place& here) const { return {here.watched, here.rates()}; }
+  [[nodiscard]] std::vector<double> located(const Place& before, const Place& now, double length,
+                                            const CurveTest& test) const;
+  void note(const Place& before, const Place& now, double length, Curve& curve) const;
+  [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
+  [[nodiscard]] std::vector<bool> own_margins_at(const Place& here) const;
+
+  Problem problem_;
+  SpecialPoint point_;
+  const CurveOptions& options_;
+  std::vector<bool> own_;
+  std::vector<CurveTest> tests_;
+};
+
+/// Of a step of `along`, in those of DeathEquations. The parameters' are their ranges. A motion that dies out has no
+/// size: numbers of less effect in the equations than 1 have the unit that gives them that.
+VectorXd DeathCurve::units(const DeathEquations& at) const {
+  VectorXd all = VectorXd::Ones(at.units.size() + 1);
+  for (Index j = 0; j < problem_.numbers(); ++j)
+    if (const double effect = at.by.col(j).cwiseAbs().maxCoeff(); effect > 0.0) all[j] = std::max(1.0, 1.0 / effect);
+  all[at.parameter] = ranges()[0] / at.units[at.parameter];
+  all[at.units.size()] = ranges()[1] / at.units_of_others[0];
+  return all;
+}
+
+/// @param forward  what the tangent does not turn against; empty: the second parameter grows
+DeathCurve::Place DeathCurve::place(Death death, const VectorXd& forward) const {
+  const DeathEquations at(problem_, death);
+  MatrixXd matrix(at.by.rows(), at.by.cols() + 1);
+  matrix << at.by, at.by_others.col(0);
+  Place here;
+  here.along = dense::right_singular_vectors(matrix * units(at).asDiagonal()).rightCols(1);
+  const double sense = forward.size() > 0 ? here.along.dot(forward) : here.along[here.along.size() - 1];
+  if (sense < 0.0) here.along = -here.along;
+  here.first = at.parameter;
+  here.watched = point_of(problem_, death.orbit, ranges()[0], {}).watched;
+  here.death = std::move(death);
+  return here;
+}
+
+std::optional<Death> DeathCurve::solved(Death death, const Demand& demand) const {
+  constexpr int most_steps = 12;
+  constexpr double most = 2.0;  // a step; that of a number which is rounding is its own size
+  VectorXd taken = VectorXd::Zero(demand.row.size());
+  double before = INFINITY;
+  for (int k = 0; k < most_steps; ++k) {
+    const DeathEquations at(problem_, death);
+    const VectorXd scale = units(at);
+    MatrixXd matrix(at.by.rows() + 1, scale.size());
+    matrix << at.by, at.by_others.col(0), Eigen::RowVectorXd::Zero(scale.size());
+    matrix = matrix * scale.asDiagonal();
+    matrix.bottomRows(1) = demand.row;
+    VectorXd right(matrix.rows());
+    right << -at.residual, demand.length - demand.row.dot(taken);
+    if (!matrix.allFinite()) return std::nullopt;
+    const VectorXd step = dense::LeastNorm(matrix).solve(right);
+    const double now = length(problem_, at, step);
+    if (!(now <= most)) return std::nullopt;
+    move(problem_, at, step.cwiseProduct(scale), 1.0, death);
+    taken += step;
+    if (now < enough_step || (now < death_rounding && now > 0.1 * before))
+      return in_order(death) && holds_together(problem_, death) ? std::optional(death) : std::nullopt;
+    before = now;
+  }
+  return std::nullopt;
+}
+
+std::optional<DeathCurve::Place> DeathCurve::next(const Place& here, const Demand& demand) const {
+  try {
+    if (auto death = solved(here.death, demand)) return place(std::move(*death), here.along);
+  } catch (const InputError&) {  // no model there
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
+}
+
+/// Along the tangent, or to the end of a range that the step would pass.
+DeathCurve::Step DeathCurve::step_from(const Place& here, double length) const {
+  const std::array<double, 2> least = {options_.from, options_.second_from}, most = {options_.to, options_.second_to};
+  Step step{{here.along.transpose(), length}, length};
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double rate = here.rates()[j];
+    const double left = ((rate > 0.0 ? most[j] : least[j]) - here.death.orbit.values[j]) / ranges()[j];
+    if (rate == 0.0 || left / rate > step.length) continue;
+    const Index column = j == 0 ? here.first : here.along.size() - 1;
+    step = {{Eigen::RowVectorXd::Unit(here.along.size(), column), left}, std::max(left / rate, 0.0), true};
+  }
+  return step;
+}
+
+/// The margins of the touches are zero all along.
+std::vector<bool> DeathCurve::own_margins_at(const Place& here) const {
+  std::vector<bool> own;
+  for (const TestValue& test : here.watched.tests) {
+    const auto touched = [&](const Touch& touch) {
+      return ranges::any_of(touch.guards, [&](const Touch::Guard& guard) {
+        return test.test == Test::guard && guard.kind == test.kind && guard.contact == test.contact;
+      });
+    };
+    own.push_back(ranges::any_of(here.death.touches, touched));
+  }
+  return own;
+}
+
+CurvePoint DeathCurve::point_of_curve(const Place& here) const {
+  const Orbit& orbit = here.death.orbit;
+  CurvePoint point{orbit.values, describe(problem_, orbit, nullptr)};
+  point.solution.is_motion = true;
+  for (std::size_t i = 0; i < here.watched.tests.size() && point.solution.is_motion; ++i) {
+    if (own_[i] || here.watched.tests[i].value >= 0.0) continue;
+    point.solution.is_motion = false;
+    point.solution.why = describe(used(here.watched.tests[i]), orbit.shape, problem_.base());
+  }
+  return point;
+}
+
+/// The parameters where a function of the curve changes its sign.
+std::vector<double> DeathCurve::located(const Place& before, const Place& now, double length,
+                                        const CurveTest& test) const {
+  constexpr int halvings = 24;
+  double a = 0.0, b = length;
+  std::vector<double> values = now.death.orbit.values;
+  const bool sign = test.value(watched_at(before)) < 0.0;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (a + b);
+    const std::optional<Place> there = next(before, {before.along.transpose(), middle});
+    if (!there) break;
+    values = there->death.orbit.values;
+    ((test.value(watched_at(*there)) < 0.0) == sign ? a : b) = middle;
+  }
+  return values;
+}
+
+/// Points of codimension two between two places.
+void DeathCurve::note(const Place& before, const Place& now, double length, Curve& curve) const {
+  for (const CurveTest& test : tests_) {
+    const double from = test.value(watched_at(before)), to = test.value(watched_at(now));
+    if (!(std::abs(from) >= test.noise && std::abs(to) >= test.noise)) continue;  // no sign, or no value
+    if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
+    if (test.holds && !test.holds(now.watched)) continue;
+    add_event(curve, {{test.met}, located(before, now, length, test), curve.points.size() - 1}, ranges());
+  }
+}
+
+Curve DeathCurve::run(double sign) {
+  Curve curve;
+  curve.parameters = problem_.family().names;
+  curve.shape = point_.solution.orbit.shape;
+  curve.up.kind = CurveEnd::Kind::most_points;
+  Place here = place(*point_.death, {});
+  if (here.rates()[1] * sign < 0.0) here.along = -here.along;
+  own_ = own_margins_at(here);
+  tests_ = curve_tests(point_, here.watched, own_);
+  double length = options_.longest_step;
+  curve.points.push_back(point_of_curve(here));
+  while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
+    const Step step = step_from(here, length);
+    if (step.last) curve.up.kind = CurveEnd::Kind::range;
+    if (step.last && step.length < least_length) return curve;
+    std::optional<Place> ahead = next(here, step.demand);
+    if (!ahead || !inside(ahead->death.orbit.values) || here.along.dot(ahead->along) < straightness) {
+      length = 0.5 * step.length;
+      if (length > least_length) continue;
+      curve.up = {.kind = CurveEnd::Kind::no_step, .failed = true, .values = here.death.orbit.values};
+      return curve;
+    }
+    note(here, *ahead, step.length, curve);
+    here = std::move(*ahead);
+    curve.points.push_back(point_of_curve(here));
+    if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));
+    if (step.last) return curve;
+    curve.up.kind = CurveEnd::Kind::most_points;
+    length = std::min(options_.longest_step, 1.4 * length);
+  }
+  if (stopped(options_.stop)) curve.up.kind = CurveEnd::Kind::stopped;
+  return curve;
+}
+
+}  // namespace
+
+Curve death_curve(const Problem& problem, const SpecialPoint& point, const CurveOptions& options, double sign) {
+  return DeathCurve(problem, point, options).run(sign);
+}
+
+}  // namespace slapstick::orbit

@@ -1,0 +1,60 @@
+/// Finds what rests in every leg of an orbit.
+#include "orbit/kept.hpp"
+
+#include "base/ranges.hpp"
+#include "base/text.hpp"
+#include "orbit/margins.hpp"
+#include "slapstick/base/error.hpp"
+
+namespace slapstick::orbit {
+
+using Eigen::Index;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+/// The row of a number that is kept has zeros only, to the last bit: its rate is zero in every leg. Entries for numbers
+/// that a leg forgets do not count, as of the velocity of a pair that is held: their own closing makes them zero.
+void keep_what_rests(const Problem& problem, Linearised& at) {
+  const Index first = at.by.rows() - 1 - problem.numbers();
+  std::vector<bool> forgotten;
+  for (Index i = 0; i < problem.numbers(); ++i) {
+    const auto row = at.by.row(first + i);
+    forgotten.push_back(row[i] == -1.0 && (row.array() != 0.0).count() == 1);
+  }
+  for (Index i = 0; i < problem.numbers() - problem.translations().velocities(); ++i) {
+    bool moved = forgotten[static_cast<std::size_t>(i)] ||
+                 (at.by.row(first + i).tail(at.by.cols() - problem.numbers()).array() != 0.0).any();
+    for (Index j = 0; j < problem.numbers(); ++j)
+      moved = moved || (at.by(first + i, j) != 0.0 && !forgotten[static_cast<std::size_t>(j)]);
+    if (moved) continue;
+    at.kept.push_back(i);
+    at.by.row(first + i) = RowVectorXd::Unit(at.by.cols(), i);
+    at.residual[first + i] = 0.0;
+  }
+}
+
+bool keeps(const Problem& problem, const std::vector<Index>& kept, Index displacement) {
+  return ranges::any_of(kept, [&](Index i) {
+    const VectorXd number = problem.translations().representative(VectorXd::Unit(problem.numbers(), i));
+    return displacement < number.size() / 2 && number[displacement] == 1.0;
+  });
+}
+
+void demand_off_limits(const Problem& problem, const ModeSet& set, const Orbit& orbit, const std::vector<Index>& kept) {
+  constexpr double rounding = 1e-12;  // of the way between the limits
+  if (kept.empty()) return;
+  for (const TestValue& test : test_values(set, orbit)) {
+    const mode::SliderRow* slider = mode::of_corner(test.kind) ? set.frame().slider(test.contact) : nullptr;
+    if (slider == nullptr || !keeps(problem, kept, slider->own)) continue;
+    if (test.value <= rounding * (slider->high - slider->low))
+      throw NumericalError("the orbit has no derivative by a parameter: the slider of " +
+                           in_quotes(set.model().characteristics[static_cast<std::size_t>(test.contact)].name) +
+                           " rests at its limit, and is drawn along to one side only; start from another state");
+  }
+}
+
+int kept_numbers(const Problem& problem, const Orbit& orbit) {
+  return static_cast<int>(linearise(problem, ModeSet(problem.family(), orbit.values), orbit).kept.size());
+}
+
+}  // namespace slapstick::orbit

@@ -45,12 +45,14 @@ namespace {
 /// ln N / N: the exponent that a tangent shows which grows no faster than the time, as on every curve of a family.
 double growth_without_exponent(int periods) { return std::log(static_cast<double>(periods)) / periods; }
 
-bool dissipates(const Model& model) {
+/// Does a motion lose energy? A stop takes some where it is struck.
+bool dissipates(const Model& model, const section::PeriodEvents& events) {
   const auto acts = [](double coefficient) { return coefficient != 0.0; };
   return !model.damping.empty() || ranges::any_of(model.dampers, acts, &Damper::coefficient) ||
          ranges::any_of(model.frictions, acts, &FrictionContact::static_friction) ||
-         ranges::any_of(model.stops,
-                        [](const Stop& stop) { return stop.restitution != 1.0 || !stop.corners.empty(); }) ||
+         (events.impacts > 0 &&
+          ranges::any_of(model.stops,
+                         [](const Stop& stop) { return stop.restitution != 1.0 || !stop.corners.empty(); })) ||
          ranges::any_of(model.compliant_stops, acts, &CompliantStop::damping) ||
          ranges::any_of(model.characteristics,
                         [](const Characteristic& one_of) { return one_of.over != Characteristic::Over::displacement; });
@@ -90,7 +92,7 @@ void record(const attractor::RunFigures& run, const Finding& found, const System
     result.rotation = run.rotation.number;
     result.rotation_digits = run.rotation.digits;
     result.curves = run.rotation.curves;
-    if (!dissipates(system.model())) result.attractor = Attractor::family;
+    if (!dissipates(system.model(), run.events)) result.attractor = Attractor::family;
   }
   result.label = name(result.attractor);
 }

@@ -98,8 +98,10 @@ std::optional<LocatedDeath> solved(const Problem& problem, const Orbit& near, co
 }  // namespace
 
 std::optional<LocatedDeath> death_near(const Problem& problem, const Orbit& near, const std::vector<bool>& dying) {
+  std::vector<std::vector<bool>> sets = {dying};
+  if (std::vector<bool> at_once = with_ties(near, dying); at_once != dying) sets.push_back(std::move(at_once));
   for (const bool impacts_stay : {true, false}) {
-    for (const std::vector<bool>& legs : {dying, with_ties(near, dying)}) {
+    for (const std::vector<bool>& legs : sets) {
       try {
         if (auto found = solved(problem, near, legs, impacts_stay)) return found;
       } catch (const InputError&) {  // no model there

@@ -7,6 +7,7 @@
 
 #include "base/dense.hpp"
 #include "base/ranges.hpp"
+#include "base/text.hpp"
 #include "change/change_kind.hpp"
 #include "change/death.hpp"
 #include "change/death_equations.hpp"
@@ -21,8 +22,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double straightness = 0.9;   ///< least cosine between neighbouring tangents
-constexpr double least_length = 1e-7;  ///< of a step, in units of both ranges and the orbit's size
+constexpr double straightness = 0.9;    ///< least cosine between neighbouring tangents
+constexpr double undetermined = 1e-10;  ///< a singular value, of the largest: a direction in which the equations hold
+constexpr double least_length = 1e-7;   ///< of a step, in units of both ranges and the orbit's size
 
 class DeathCurve {
  public:
@@ -97,12 +99,18 @@ VectorXd DeathCurve::units(const DeathEquations& at) const {
 }
 
 /// @param forward  what the tangent does not turn against; empty: the second parameter grows
+/// @throws NumericalError where the equations hold in no direction, or in several
 DeathCurve::Place DeathCurve::place(Death death, const VectorXd& forward) const {
   const DeathEquations at(problem_, death);
   MatrixXd matrix(at.by.rows(), at.by.cols() + 1);
   matrix << at.by, at.by_others.col(0);
+  const dense::SingularVectors all = dense::singular_vectors(matrix * units(at).asDiagonal());
+  const Index regular = (all.values.array() > undetermined * all.values[0]).count();
+  if (regular + 1 != matrix.cols())
+    throw NumericalError("curve: the place where legs die out is no curve over both parameters at " +
+                         shown(death.orbit.parameter()) + ", " + shown(death.orbit.values[1]));
   Place here;
-  here.along = dense::right_singular_vectors(matrix * units(at).asDiagonal()).rightCols(1);
+  here.along = all.right.rightCols(1);
   const double sense = forward.size() > 0 ? here.along.dot(forward) : here.along[here.along.size() - 1];
   if (sense < 0.0) here.along = -here.along;
   here.first = at.parameter;

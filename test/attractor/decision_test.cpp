@@ -186,7 +186,8 @@ TEST(Decision, ASlowCycleOfALinearMachineIsOneOfItsOwn) {
   }
 }
 
-/// x'' + x = sin(omega t): nothing draws the motion to the curve it is on. Its rotation number is 1 / omega.
+/// x'' + x = sin(omega t): nothing draws the motion to the curve it is on. Its rotation number is 1 / omega. A stop that
+/// is never struck takes nothing.
 TEST(Decision, AFreeMotionWithoutDampingIsOneOfAFamily) {
   Model model;
   model.name = "undamped";
@@ -194,10 +195,13 @@ TEST(Decision, AFreeMotionWithoutDampingIsOneOfAFamily) {
   model.coordinates = {{"x", 1.0}};
   model.springs = {{0, ground, 1.0}};
   model.forces = {{0, 1, 1.0, 0.0}};
-  const Classification found = classify(System(model), {0.7, 0.0});
-  EXPECT_EQ(found.label, "one of a family");
-  EXPECT_NEAR(found.rotation, 1.0 / model.omega, 1e-12);
-  EXPECT_EQ(found.curves, 1);
+  for (const bool far_stop : {false, true}) {
+    if (far_stop) model.stops = {{"far", 0, ground, 1e3, 0.5}};
+    const Classification found = classify(System(model), {0.7, 0.0});
+    EXPECT_EQ(found.label, "one of a family");
+    EXPECT_NEAR(found.rotation, 1.0 / model.omega, 1e-12);
+    EXPECT_EQ(found.curves, 1);
+  }
 }
 
 TEST(Decision, AnInvariantCurveHasARotationNumber) {

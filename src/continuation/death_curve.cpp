@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "base/dense.hpp"
 #include "base/ranges.hpp"
@@ -12,6 +13,7 @@
 #include "change/death.hpp"
 #include "change/death_equations.hpp"
 #include "continuation/curve_events.hpp"
+#include "orbit/kept.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/continuation/sentences.hpp"
 
@@ -75,15 +77,17 @@ class DeathCurve {
   [[nodiscard]] Step step_from(const Place& here, double length) const;
   [[nodiscard]] CurvePlace watched_at(const Place& here) const { return {here.watched, here.rates()}; }
   [[nodiscard]] std::vector<double> located(const Place& before, const Place& now, double length,
-                                            const CurveTest& test) const;
+                                            const std::function<bool(const Place&)>& holds) const;
   void note(const Place& before, const Place& now, double length, Curve& curve) const;
   [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
   [[nodiscard]] std::vector<bool> own_margins_at(const Place& here) const;
+  [[nodiscard]] const TestValue* violated(const Place& here) const;
+  [[nodiscard]] double bend(const Place& here) const;
+  [[nodiscard]] bool runs_back(const Place& before, const Place& now) const;
 
   Problem problem_;
   SpecialPoint point_;
   const CurveOptions& options_;
-  std::vector<bool> own_;
   std::vector<CurveTest> tests_;
 };
 
@@ -137,7 +141,9 @@ std::optional<Death> DeathCurve::solved(Death death, const Demand& demand) const
     const VectorXd step = dense::LeastNorm(matrix).solve(right);
     const double now = length(problem_, at, step);
     if (!(now <= most)) return std::nullopt;
+    const VectorXd was = problem_.translations().numbers(death.orbit.x[0]);
     move(problem_, at, step.cwiseProduct(scale), 1.0, death);
+    settle_forgotten(problem_, at.orbit, was, death.orbit);
     taken += step;
     if (now < enough_step || (now < death_rounding && now > 0.1 * before))
       return in_order(death) && holds_together(problem_, death) ? std::optional(death) : std::nullopt;
@@ -169,45 +175,82 @@ DeathCurve::Step DeathCurve::step_from(const Place& here, double length) const {
   return step;
 }
 
-/// The margins of the touches are zero all along.
+/// Which margins are zero because of the touches: those whose least value lies at one.
 std::vector<bool> DeathCurve::own_margins_at(const Place& here) const {
+  constexpr double at_once = 1e-6;  // of the cycle
+  const Orbit& orbit = here.death.orbit;
+  const double cycle = orbit.t.back() - orbit.t.front();
   std::vector<bool> own;
   for (const TestValue& test : here.watched.tests) {
-    const auto touched = [&](const Touch& touch) {
-      return ranges::any_of(touch.guards, [&](const Touch::Guard& guard) {
-        return test.test == Test::guard && guard.kind == test.kind && guard.contact == test.contact;
-      });
-    };
-    own.push_back(ranges::any_of(here.death.touches, touched));
+    const double instant = orbit.t[test.leg] + test.at;
+    own.push_back(ranges::any_of(here.death.touches, [&](const Touch& touch) {
+      const double there = touch.place == Touch::Place::within  ? touch.t
+                           : touch.place == Touch::Place::start ? orbit.t[touch.leg]
+                                                                : orbit.t[touch.leg + 1];
+      const double off = (instant - there) / cycle;
+      return test.test == Test::guard && std::abs(off - std::round(off)) < at_once &&
+             ranges::any_of(touch.guards, [&](const Touch::Guard& guard) {
+               return guard.kind == test.kind && guard.contact == test.contact;
+             });
+    }));
   }
   return own;
+}
+
+/// The margin that is used up beside those of the touches; null if the orbit is a motion apart from these.
+const TestValue* DeathCurve::violated(const Place& here) const {
+  const std::vector<bool> own = own_margins_at(here);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (!own[i] && here.watched.tests[i].value < 0.0) return &here.watched.tests[i];
+  return nullptr;
+}
+
+/// The least rate at which the slope of a guard rises at its touch within a leg.
+double DeathCurve::bend(const Place& here) const {
+  const Orbit& orbit = here.death.orbit;
+  const ModeSet set(problem_.family(), orbit.values);
+  double least = INFINITY;
+  for (const Touch& touch : here.death.touches) {
+    if (touch.place != Touch::Place::within) continue;
+    const ModeRates& mode = set.mode(orbit.shape.legs[touch.leg].states);
+    const VectorXd X = state_within(set, orbit, touch.leg, touch.t - orbit.t[touch.leg]);
+    const auto& row = mode.outline.guards[mode.guard(touch.guards[0].kind, touch.guards[0].contact)].row;
+    least = std::min(least, row.dot(mode.outline.system * (mode.outline.system * X)));
+  }
+  return least;
+}
+
+/// Do two touches become one between two places? Their equations lead back then, or on with a guard that is greatest at
+/// its touch.
+bool DeathCurve::runs_back(const Place& before, const Place& now) const {
+  const std::array<double, 2> was = before.rates(), is = now.rates();
+  return (was[0] * is[0] < 0.0 && was[1] * is[1] < 0.0) || (bend(before) > 0.0 && !(bend(now) > 0.0));
 }
 
 CurvePoint DeathCurve::point_of_curve(const Place& here) const {
   const Orbit& orbit = here.death.orbit;
   CurvePoint point{orbit.values, describe(problem_, orbit, nullptr)};
   point.solution.is_motion = true;
-  for (std::size_t i = 0; i < here.watched.tests.size() && point.solution.is_motion; ++i) {
-    if (own_[i] || here.watched.tests[i].value >= 0.0) continue;
+  if (const TestValue* margin = violated(here)) {
     point.solution.is_motion = false;
-    point.solution.why = describe(used(here.watched.tests[i]), orbit.shape, problem_.base());
+    point.solution.why = describe(used(*margin), orbit.shape, problem_.base());
   }
   return point;
 }
 
-/// The parameters where a function of the curve changes its sign.
+/// The parameters where a condition comes to hold, or to hold no more.
 std::vector<double> DeathCurve::located(const Place& before, const Place& now, double length,
-                                        const CurveTest& test) const {
+                                        const std::function<bool(const Place&)>& holds) const {
   constexpr int halvings = 24;
   double a = 0.0, b = length;
   std::vector<double> values = now.death.orbit.values;
-  const bool sign = test.value(watched_at(before)) < 0.0;
+  const bool at_first = holds(before);
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (a + b);
     const std::optional<Place> there = next(before, {before.along.transpose(), middle});
     if (!there) break;
     values = there->death.orbit.values;
-    ((test.value(watched_at(*there)) < 0.0) == sign ? a : b) = middle;
+    (holds(*there) == at_first ? a : b) = middle;
   }
   return values;
 }
@@ -219,8 +262,16 @@ void DeathCurve::note(const Place& before, const Place& now, double length, Curv
     if (!(std::abs(from) >= test.noise && std::abs(to) >= test.noise)) continue;  // no sign, or no value
     if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
     if (test.holds && !test.holds(now.watched)) continue;
-    add_event(curve, {{test.met}, located(before, now, length, test), curve.points.size() - 1}, ranges());
+    const auto negative = [&](const Place& here) { return test.value(watched_at(here)) < 0.0; };
+    add_event(curve, {{test.met}, located(before, now, length, negative), curve.points.size() - 1}, ranges());
   }
+  // A guard may be used up at another instant than its touch's, in the same leg.
+  const TestValue* margin = violated(now);
+  if (margin == nullptr || violated(before) != nullptr) return;
+  const auto ends = [&](const Place& here) { return violated(here) != nullptr; };
+  const Meeting met{
+      .kind = Meeting::Kind::margin, .type = type_of(*margin, now.death.orbit.shape), .margin = used(*margin)};
+  add_event(curve, {{met}, located(before, now, length, ends), curve.points.size() - 1}, ranges());
 }
 
 Curve DeathCurve::run(double sign) {
@@ -230,8 +281,7 @@ Curve DeathCurve::run(double sign) {
   curve.up.kind = CurveEnd::Kind::most_points;
   Place here = place(*point_.death, {});
   if (here.rates()[1] * sign < 0.0) here.along = -here.along;
-  own_ = own_margins_at(here);
-  tests_ = curve_tests(point_, here.watched, own_);
+  tests_ = curve_tests(point_, here.watched, own_margins_at(here));
   double length = options_.longest_step;
   curve.points.push_back(point_of_curve(here));
   while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
@@ -242,6 +292,10 @@ Curve DeathCurve::run(double sign) {
     if (!ahead || !inside(ahead->death.orbit.values) || here.along.dot(ahead->along) < straightness) {
       length = 0.5 * step.length;
       if (length > least_length) continue;
+      curve.up = {.kind = CurveEnd::Kind::no_step, .failed = true, .values = here.death.orbit.values};
+      return curve;
+    }
+    if (runs_back(here, *ahead)) {
       curve.up = {.kind = CurveEnd::Kind::no_step, .failed = true, .values = here.death.orbit.values};
       return curve;
     }

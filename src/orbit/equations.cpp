@@ -115,7 +115,7 @@ Linearised linearise(const Problem& problem, const ModeSet& set, const Orbit& or
   at.advance = problem.translations().take_out(defect);
   at.residual.segment(rows, problem.numbers()) = problem.translations().numbers(defect);
   at.by.middleRows(rows, problem.numbers()) = classes(problem, states);
-  keep_what_rests(problem, at);
+  keep_what_rests(problem, orbit, at);
   at.residual.tail(1)[0] = forced(orbit) ? orbit.t[k] - orbit.t[0] - orbit.shape.n : orbit.t[0];
   at.by(at.by.rows() - 1, problem.instant_column(0)) = forced(orbit) ? -1.0 : 1.0;
   if (forced(orbit)) at.by(at.by.rows() - 1, problem.instant_column(k)) = 1.0;
@@ -306,7 +306,9 @@ void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& 
     const double fraction = std::min(1.0, longest_newton_step / step.cwiseAbs().maxCoeff());
     const VectorXd change = fraction * step.cwiseProduct(scale);
     moved += change;
+    const VectorXd was = problem.translations().numbers(orbit.x[0]);
     move(problem, at, change, fraction, orbit);
+    if (!at.kept.empty() && fraction == 1.0) settle_forgotten(problem, at, was, orbit);
     if (longest_leg(orbit) > far_too_long * longest) return;
     // Quadratic convergence: the next step would be its square. Rounding ends it in any case.
     const double alike = std::max(1e-10, rounding(orbit, at));

@@ -66,6 +66,7 @@ struct Linearised {
   /// Displacements of x_0 that no leg moves, as of a slider that rests all along: such an orbit is one of a family. In
   /// place of their closing, which holds for any value, they stay as they are.
   std::vector<Eigen::Index> kept;
+  std::vector<Eigen::Index> forgotten;   ///< numbers of x_0 of which the cycle makes the same whatever they are
   Eigen::MatrixXd by;                    ///< its derivative by the unknowns
   std::vector<Eigen::MatrixXd> states;   ///< of x_i by the unknowns ..
   std::vector<Eigen::VectorXd> defects;  ///< .. and what x_i has to make good

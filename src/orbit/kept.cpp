@@ -1,6 +1,8 @@
 /// Finds what rests in every leg of an orbit.
 #include "orbit/kept.hpp"
 
+#include <cmath>
+
 #include "base/ranges.hpp"
 #include "base/text.hpp"
 #include "orbit/margins.hpp"
@@ -13,23 +15,39 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 /// The row of a number that is kept has zeros only, to the last bit: its rate is zero in every leg. Entries for numbers
-/// that a leg forgets do not count, as of the velocity of a pair that is held: their own closing makes them zero.
-void keep_what_rests(const Problem& problem, Linearised& at) {
-  const Index first = at.by.rows() - 1 - problem.numbers();
+/// that the cycle forgets do not count, as of the velocity of a held pair: their own closing makes them zero. Nor do
+/// entries for instants that what is left of such numbers accounts for.
+void keep_what_rests(const Problem& problem, const Orbit& orbit, Linearised& at) {
+  constexpr double room = 4.0;
+  const Index first = at.by.rows() - 1 - problem.numbers(), others = at.by.cols() - problem.numbers();
+  const VectorXd left = problem.translations().numbers(orbit.x[0]).cwiseAbs();
+  const double often = room * (1.0 + 1.0 / std::abs(orbit.t.back() - orbit.t.front()));
   std::vector<bool> forgotten;
   for (Index i = 0; i < problem.numbers(); ++i) {
     const auto row = at.by.row(first + i);
     forgotten.push_back(row[i] == -1.0 && (row.array() != 0.0).count() == 1);
+    if (forgotten.back()) at.forgotten.push_back(i);
   }
   for (Index i = 0; i < problem.numbers() - problem.translations().velocities(); ++i) {
-    bool moved = forgotten[static_cast<std::size_t>(i)] ||
-                 (at.by.row(first + i).tail(at.by.cols() - problem.numbers()).array() != 0.0).any();
-    for (Index j = 0; j < problem.numbers(); ++j)
-      moved = moved || (at.by(first + i, j) != 0.0 && !forgotten[static_cast<std::size_t>(j)]);
-    if (moved) continue;
+    const RowVectorXd row = at.by.row(first + i);
+    bool moved = forgotten[static_cast<std::size_t>(i)];
+    double accounted = 0.0;
+    for (Index j = 0; j < problem.numbers(); ++j) {
+      moved = moved || (row[j] != 0.0 && !forgotten[static_cast<std::size_t>(j)]);
+      accounted += often * std::abs(row[j]) * left[j];
+    }
+    if (moved || row.tail(others).cwiseAbs().maxCoeff() > accounted) continue;
     at.kept.push_back(i);
     at.by.row(first + i) = RowVectorXd::Unit(at.by.cols(), i);
     at.residual[first + i] = 0.0;
+  }
+}
+
+void settle_forgotten(const Problem& problem, const Linearised& at, const VectorXd& was, Orbit& orbit) {
+  const Index first = at.residual.size() - 1 - problem.numbers();
+  for (const Index i : at.forgotten) {
+    const VectorXd number = problem.translations().representative(VectorXd::Unit(problem.numbers(), i));
+    orbit.x[0] += (was[i] + at.residual[first + i] - problem.translations().numbers(orbit.x[0])[i]) * number;
   }
 }
 

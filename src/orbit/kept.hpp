@@ -8,7 +8,12 @@
 namespace slapstick::orbit {
 
 /// Finds these numbers by their closing rows, and puts in place of each row that the number stays.
-void keep_what_rests(const Problem& problem, Linearised& at);
+void keep_what_rests(const Problem& problem, const Orbit& orbit, Linearised& at);
+
+/// Makes the numbers that the cycle forgets exactly what it makes of them, as a velocity that is zero: rounding there
+/// would be an event.
+/// @param was  the first state's numbers where `at` was linearised
+void settle_forgotten(const Problem& problem, const Linearised& at, const Eigen::VectorXd& was, Orbit& orbit);
 
 /// Is a displacement, by its place in a contact state, among those that are kept?
 [[nodiscard]] bool keeps(const Problem& problem, const std::vector<Eigen::Index>& kept, Eigen::Index displacement);

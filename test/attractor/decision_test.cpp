@@ -186,8 +186,8 @@ TEST(Decision, ASlowCycleOfALinearMachineIsOneOfItsOwn) {
   }
 }
 
-/// x'' + x = sin(omega t): nothing draws the motion to the curve it is on. Its rotation number is 1 / omega. A stop that
-/// is never struck takes nothing.
+/// x'' + x = sin(omega t): nothing draws the motion to the curve it is on. Its rotation number is 1 / omega. A stop is
+/// never struck, and takes nothing.
 TEST(Decision, AFreeMotionWithoutDampingIsOneOfAFamily) {
   Model model;
   model.name = "undamped";

@@ -188,7 +188,8 @@ struct Swings {
             std::to_string(harmonic) +
             "\n[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x', 'ground']\n"
             "coefficient = " +
-            number(damping) + "\n" + slider("a", k_a, f_a) + (k_b > 0.0 ? slider("b", k_b, f_b) : "") + pad,
+            number(damping) + "\n" + (k_a > 0.0 ? slider("a", k_a, f_a) : "") +
+            (k_b > 0.0 ? slider("b", k_b, f_b) : "") + pad,
         "swings.toml");
   }
 };
@@ -302,6 +303,72 @@ TEST(PartialSlip, BordersAreFollowedInTwoParameters) {
       const double known = which == 3 ? std::abs(joint.response(there.values[0], there.values[1])) : amplitude;
       EXPECT_NEAR(known, amplitude, 1e-12);
     }
+  }
+}
+
+/// A border is one of motions only as long as no other swing is wider: the slider would slip there first.
+TEST(PartialSlip, ABorderThatAnotherSwingHasPassedIsNoMotion) {
+  const Swings swings{.damping = 0.2, .k_a = 1.0, .f_a = 0.3, .k_b = 0.0};
+  const ModelDefinition definition = swings.definition();
+  const Overrides small = {{"small", 0.3}};
+  const auto first = settled(definition, {{"large", 0.8}, {"small", 0.3}});
+  ASSERT_TRUE(first);
+  orbit::Orbit start = first->orbit;
+  start.values = {0.8};
+  const auto posed = orbit::pose(definition.family({"large"}, small), {0.8});
+  const orbit::Branch branch = orbit::follow(*posed, start, {.from = 0.1, .to = 1.0});
+  const auto border = std::ranges::find(branch.special, orbit::Passage::family, &orbit::SpecialPoint::passage);
+  ASSERT_NE(border, branch.special.end()) << orbit::ended(branch);
+  orbit::SpecialPoint point = *border;
+  point.solution.orbit.values = {point.value, 0.3};
+  const auto problem = orbit::pose(definition.family({"large", "small"}), point.solution.orbit.values);
+  const orbit::Curve curve =
+      orbit::locus(*problem, point, {.from = -1.5, .to = 1.5, .second_from = -3.0, .second_to = 3.0});
+  EXPECT_FALSE(curve.failed());
+  int passed = 0;
+  for (const orbit::CurvePoint& there : curve.points) {
+    const orbit::Range x = orbit::ranges(*problem, there.solution.orbit)[0];
+    const bool wider = x.most - x.least > 2.0 * swings.f_a / swings.k_a + 1e-9;
+    EXPECT_EQ(there.solution.is_motion, !wider) << there.values[0] << ", " << there.values[1];
+    passed += wider ? 1 : 0;
+  }
+  EXPECT_GT(passed, 20);
+  EXPECT_TRUE(std::ranges::any_of(
+      curve.met, [](const orbit::CurveEvent& event) { return event.met[0].kind == orbit::Meeting::Kind::margin; }));
+}
+
+/// Where two touches of a held body become one, the border goes on by other touches: its curve ends.
+TEST(PartialSlip, ABorderEndsWhereItsTouchesMerge) {
+  const Swings swings{.omega = 0.7,
+                      .damping = 0.0,
+                      .k_a = 0.0,
+                      .k_b = 0.0,
+                      .pad =
+                          "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.35\n"
+                          "kinetic = 0.35\n"};
+  const ModelDefinition definition = swings.definition();
+  const orbit::Branch branch = [&] {
+    const auto first = settled(definition, {{"large", 0.5}, {"small", 0.0}});
+    if (!first) throw std::runtime_error("no orbit");
+    orbit::Orbit start = first->orbit;
+    start.values = {0.5};
+    const auto posed = orbit::pose(definition.family({"large"}, {{"small", 0.0}}), {0.5});
+    return orbit::follow(*posed, start, {.from = 0.1, .to = 1.0});
+  }();
+  ASSERT_FALSE(branch.special.empty());
+  orbit::SpecialPoint point = branch.special.front();
+  EXPECT_NEAR(point.value, 0.35, 1e-14);
+  point.solution.orbit.values = {point.value, 0.0};
+  const auto problem = orbit::pose(definition.family({"large", "small"}), point.solution.orbit.values);
+  const orbit::Curve curve =
+      orbit::locus(*problem, point, {.from = 0.02, .to = 1.5, .second_from = -1.0, .second_to = 1.0});
+  // The force a sin t + b sin 3t is flat at its greatest where a = 9 b: with a - b = 0.35 at b = 0.04375.
+  EXPECT_EQ(curve.up.kind, orbit::CurveEnd::Kind::no_step);
+  EXPECT_LT(curve.points.back().values[1], 0.04375);
+  EXPECT_GT(curve.points.back().values[1], 0.03);
+  for (const orbit::CurvePoint& there : curve.points) {
+    EXPECT_TRUE(there.solution.is_motion);
+    EXPECT_NEAR(there.values[0] - there.values[1], 0.35, 1e-13);
   }
 }
 

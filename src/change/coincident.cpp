@@ -232,7 +232,7 @@ std::optional<Orbit> with_slips_exchanged(const ModeSet& set, Orbit orbit, int s
 /// With a tie for each leg that has no length and is still there: what else has died may have kept two events apart, as
 /// the slip of one slider where two have the same corners.
 std::optional<Orbit> tied_together(Orbit orbit) {
-  constexpr double no_length = 1e-12;  // of the cycle
+  constexpr double no_length = 1e-12;  // of the cycle: rounding of an instant; a longer leg is no tie
   bool any = false;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
     Leg& leg = orbit.shape.legs[i];

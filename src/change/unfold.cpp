@@ -78,7 +78,9 @@ AtLimit at_limit(const Problem& problem, const TestValue& test) {
 /// Does a slider or a body that rests all along come to one of its limits? Beyond, it is drawn along: the orbits there
 /// are of a family, and in each it rests elsewhere. At both limits it begins to slip.
 bool is_drawn_along(const Problem& problem, const Change& change, bool slider) {
-  constexpr double off_limit = 1e-6;  // of the way between the limits
+  // Of the way between the limits: far above what locating a change leaves. More would take a slider that is drawn
+  // along for one that slips.
+  constexpr double off_limit = 1e-6;
   const TestValue& at = change.test;
   const AtLimit limit = at_limit(problem, at);
   if (limit.displacement < 0 || limit.slider != slider) return false;

@@ -177,7 +177,8 @@ DeathCurve::Step DeathCurve::step_from(const Place& here, double length) const {
 
 /// Which margins are zero because of the touches: those whose least value lies at one.
 std::vector<bool> DeathCurve::own_margins_at(const Place& here) const {
-  constexpr double at_once = 1e-6;  // of the cycle
+  constexpr double at_once =
+      1e-6;  // of the cycle: a least value is found to half the digits; a nearer swing is not seen
   const Orbit& orbit = here.death.orbit;
   const double cycle = orbit.t.back() - orbit.t.front();
   std::vector<bool> own;

@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 /// that the cycle forgets do not count, as of the velocity of a held pair: their own closing makes them zero. Nor do
 /// entries for instants that what is left of such numbers accounts for.
 void keep_what_rests(const Problem& problem, const Orbit& orbit, Linearised& at) {
+  // An instant moves y by u, and u moves y by a cycle: the ratio of the two, for an instant at either end and for its
+  // rounding. More would keep what a belt moves slowly, less would lose what a velocity of rounding moves.
   constexpr double room = 4.0;
   const Index first = at.by.rows() - 1 - problem.numbers(), others = at.by.cols() - problem.numbers();
   const VectorXd left = problem.translations().numbers(orbit.x[0]).cwiseAbs();
@@ -59,7 +61,9 @@ bool keeps(const Problem& problem, const std::vector<Index>& kept, Index displac
 }
 
 void demand_off_limits(const Problem& problem, const ModeSet& set, const Orbit& orbit, const std::vector<Index>& kept) {
-  constexpr double rounding = 1e-12;  // of the way between the limits
+  // Of the way between the limits: what a motion leaves that draws the slider there. More would refuse a derivative
+  // that there is, less would tell that of one side.
+  constexpr double rounding = 1e-12;
   if (kept.empty()) return;
   for (const TestValue& test : test_values(set, orbit)) {
     const mode::SliderRow* slider = mode::of_corner(test.kind) ? set.frame().slider(test.contact) : nullptr;

@@ -13,21 +13,10 @@
 namespace slapstick::app {
 namespace {
 
-/// The largest modulus, without the multipliers 1 that lead along a family.
-double largest_across(const orbit::Solution& solution) {
-  auto others = solution.multipliers;
-  const auto from_one = [](const std::complex<double>& mu) { return std::abs(mu - 1.0); };
-  for (int along = 0; along < solution.family && !others.empty(); ++along)
-    others.erase(ranges::min_element(others, {}, from_one));
-  double largest = 0.0;
-  for (const auto& mu : others) largest = std::max(largest, std::abs(mu));
-  return largest;
-}
-
 /// @param at_circle  a largest multiplier so near the unit circle says nothing
 std::string row(std::size_t branch, std::size_t point, std::string_view type, double value,
                 const orbit::Solution& solution, const std::string& what, double at_circle = 1e-6) {
-  const double largest = largest_across(solution);
+  const double largest = solution.largest_across();
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%3zu %5zu  %-2s  %18.12g  %-10s %12.6g %12.6g  %-8s  ", branch, point,
                 std::string(type).c_str(), value, solution.label.c_str(), solution.cycle, largest,

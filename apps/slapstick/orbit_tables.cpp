@@ -12,7 +12,7 @@ namespace {
 /// What every orbit of a branch or curve has.
 void add_orbit_columns(TableOutput& table, const orbit::Problem& problem, const orbit::Solution& solution) {
   table.word(solution.label).number(solution.cycle);
-  table.number(solution.multipliers.empty() ? 0.0 : std::abs(solution.multipliers.front()));
+  table.number(solution.largest_across());
   table.number(solution.stable() ? 1.0 : 0.0).number(solution.is_motion ? 1.0 : 0.0);
   table.numbers(orbit::at_phase_zero(problem, solution.orbit));
 }

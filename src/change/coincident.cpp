@@ -11,6 +11,7 @@
 #include "change/without_legs.hpp"
 #include "orbit/leg_flow.hpp"
 #include "orbit/short_legs.hpp"
+#include "orbit/ties.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/orbit/special_point.hpp"
 
@@ -231,19 +232,8 @@ std::optional<Orbit> with_slips_exchanged(const ModeSet& set, Orbit orbit, int s
 
 /// With a tie for each leg that has no length and is still there: what else has died may have kept two events apart, as
 /// the slip of one slider where two have the same corners.
-std::optional<Orbit> tied_together(Orbit orbit) {
-  constexpr double no_length = 1e-12;  // of the cycle: rounding of an instant; a longer leg is no tie
-  bool any = false;
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    Leg& leg = orbit.shape.legs[i];
-    const Leg& before = orbit.shape.legs[(i + orbit.legs() - 1) % orbit.legs()];
-    if (leg.tied || !mode::of_corner(leg.kind) || leg.kind != before.kind ||
-        std::abs(orbit.duration(i)) > no_length * (orbit.t.back() - orbit.t.front()))
-      continue;
-    any = leg.tied = true;
-    orbit.t[i + 1] = orbit.t[i];
-  }
-  return any ? std::optional(std::move(orbit)) : std::nullopt;
+std::optional<Orbit> tied_together(const ModeSet& set, Orbit orbit) {
+  return tie_sliders(set.frame(), orbit, rounding_of_instants(0.0)) ? std::optional(std::move(orbit)) : std::nullopt;
 }
 
 }  // namespace
@@ -270,7 +260,7 @@ std::vector<Orbit> sequences_of_same_orbit(const Problem& problem, const Orbit& 
     ranges::copy(without_legs(set, orbit, dead, false), std::back_inserter(shapes));
   std::vector<Orbit> all;
   for (const Orbit& shape : shapes) {
-    if (auto tied = tied_together(shape)) all.push_back(std::move(*tied));
+    if (auto tied = tied_together(set, shape)) all.push_back(std::move(*tied));
     all.push_back(shape);
     for (int slider = 0; slider < static_cast<int>(set.frame().characteristics.size()); ++slider)
       if (auto exchanged = with_slips_exchanged(set, shape, slider)) all.push_back(std::move(*exchanged));

@@ -71,7 +71,7 @@ AtLimit at_limit(const Problem& problem, const TestValue& test) {
       return {slider->own, slider->high - slider->low, true};
   if (test.kind != mode::GuardKind::stick_above && test.kind != mode::GuardKind::stick_below) return {};
   const FrictionContact& friction = problem.base().model().frictions[contact];
-  if (friction.normal || friction.static_friction != friction.kinetic_friction) return {};  // friction may jump
+  if (!may_be_drawn_along(friction)) return {};
   return {frame.frictions[contact].own, 2.0 * friction.static_friction, false};
 }
 

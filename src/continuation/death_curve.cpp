@@ -12,7 +12,7 @@
 #include "change/change_kind.hpp"
 #include "change/death.hpp"
 #include "change/death_equations.hpp"
-#include "continuation/curve_events.hpp"
+#include "continuation/curve_walk.hpp"
 #include "orbit/kept.hpp"
 #include "slapstick/base/error.hpp"
 #include "slapstick/continuation/sentences.hpp"
@@ -24,14 +24,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double straightness = 0.9;    ///< least cosine between neighbouring tangents
 constexpr double undetermined = 1e-10;  ///< a singular value, of the largest: a direction in which the equations hold
-constexpr double least_length = 1e-7;   ///< of a step, in units of both ranges and the orbit's size
 
-class DeathCurve {
+struct DeathPlace {
+  Death death;
+  VectorXd along;   ///< the tangent, of length 1: the unknowns of DeathEquations, then the second parameter
+  Index first = 0;  ///< the place of the first parameter in it
+  Watched watched;
+};
+
+class DeathCurve : public CurveWalk<DeathPlace> {
  public:
   DeathCurve(const Problem& problem, const SpecialPoint& point, const CurveOptions& options)
-      : problem_(problem), point_(point), options_(options) {
+      : CurveWalk(options), problem_(problem), point_(point) {
     // A motion that dies out altogether has no size: that of the branch's last orbit, and 0 for no parameter.
     problem_.set_least(sizes(problem, point.solution.orbit).head(problem.numbers()), 0.0);
     Orbit& orbit = point_.death->orbit;  // known on a branch in the first parameter alone
@@ -44,42 +49,28 @@ class DeathCurve {
   Curve run(double sign);
 
  private:
-  struct Place {
-    Death death;
-    VectorXd along;   ///< the tangent, of length 1: the unknowns of DeathEquations, then the second parameter
-    Index first = 0;  ///< the place of the first parameter in it
-    Watched watched;
-
-    [[nodiscard]] std::array<double, 2> rates() const { return {along[first], along[along.size() - 1]}; }
-  };
+  using Place = DeathPlace;
   /// row . (all steps from a death) = length, beside the equations of the death.
   struct Demand {
     Eigen::RowVectorXd row;
     double length = 0.0;
   };
-  struct Step {
-    Demand demand;
-    double length = 0.0;
-    bool last = false;  ///< the step ends on the end of a range
-  };
 
-  [[nodiscard]] std::array<double, 2> ranges() const {
-    return {options_.to - options_.from, options_.second_to - options_.second_from};
+  [[nodiscard]] const std::vector<double>& values(const Place& here) const override { return here.death.orbit.values; }
+  [[nodiscard]] std::array<double, 2> rates(const Place& here) const override {
+    return {here.along[here.first], here.along[here.along.size() - 1]};
   }
-  [[nodiscard]] bool inside(const std::vector<double>& values) const {
-    return values[0] >= options_.from && values[0] <= options_.to && values[1] >= options_.second_from &&
-           values[1] <= options_.second_to;
+  [[nodiscard]] std::optional<Place> next(const Place& here, const CurveStep& step) const override;
+  [[nodiscard]] bool goes_on(const Place& here, const Place& ahead) const override {
+    return straight(here.along.dot(ahead.along)) && !runs_back(here, ahead);
   }
+  [[nodiscard]] CurvePoint point(const Place& here) const override;
+  [[nodiscard]] CurvePlace watched(const Place& here) const override { return {here.watched, rates(here)}; }
+  bool pass(const Place& before, Place& now, double length, Curve& curve) const override;
+
   [[nodiscard]] VectorXd units(const DeathEquations& at) const;
   [[nodiscard]] Place place(Death death, const VectorXd& forward) const;
   [[nodiscard]] std::optional<Death> solved(Death death, const Demand& demand) const;
-  [[nodiscard]] std::optional<Place> next(const Place& here, const Demand& demand) const;
-  [[nodiscard]] Step step_from(const Place& here, double length) const;
-  [[nodiscard]] CurvePlace watched_at(const Place& here) const { return {here.watched, here.rates()}; }
-  [[nodiscard]] std::vector<double> located(const Place& before, const Place& now, double length,
-                                            const std::function<bool(const Place&)>& holds) const;
-  void note(const Place& before, const Place& now, double length, Curve& curve) const;
-  [[nodiscard]] CurvePoint point_of_curve(const Place& here) const;
   [[nodiscard]] std::vector<bool> own_margins_at(const Place& here) const;
   [[nodiscard]] const TestValue* violated(const Place& here) const;
   [[nodiscard]] double bend(const Place& here) const;
@@ -87,8 +78,6 @@ class DeathCurve {
 
   Problem problem_;
   SpecialPoint point_;
-  const CurveOptions& options_;
-  std::vector<CurveTest> tests_;
 };
 
 /// Of a step of `along`, in those of DeathEquations. The parameters' are their ranges. A motion that dies out has no
@@ -104,7 +93,7 @@ VectorXd DeathCurve::units(const DeathEquations& at) const {
 
 /// @param forward  what the tangent does not turn against; empty: the second parameter grows
 /// @throws NumericalError where the equations hold in no direction, or in several
-DeathCurve::Place DeathCurve::place(Death death, const VectorXd& forward) const {
+DeathPlace DeathCurve::place(Death death, const VectorXd& forward) const {
   const DeathEquations at(problem_, death);
   MatrixXd matrix(at.by.rows(), at.by.cols() + 1);
   matrix << at.by, at.by_others.col(0);
@@ -152,27 +141,19 @@ std::optional<Death> DeathCurve::solved(Death death, const Demand& demand) const
   return std::nullopt;
 }
 
-std::optional<DeathCurve::Place> DeathCurve::next(const Place& here, const Demand& demand) const {
+std::optional<DeathPlace> DeathCurve::next(const Place& here, const CurveStep& step) const {
+  Demand demand{here.along.transpose(), step.length};
+  if (step.wall) {
+    const std::size_t j = *step.wall;
+    const Index column = j == 0 ? here.first : here.along.size() - 1;
+    demand = {Eigen::RowVectorXd::Unit(here.along.size(), column), (step.value - values(here)[j]) / ranges()[j]};
+  }
   try {
     if (auto death = solved(here.death, demand)) return place(std::move(*death), here.along);
   } catch (const InputError&) {  // no model there
   } catch (const NumericalError&) {
   }
   return std::nullopt;
-}
-
-/// Along the tangent, or to the end of a range that the step would pass.
-DeathCurve::Step DeathCurve::step_from(const Place& here, double length) const {
-  const std::array<double, 2> least = {options_.from, options_.second_from}, most = {options_.to, options_.second_to};
-  Step step{{here.along.transpose(), length}, length};
-  for (std::size_t j = 0; j < 2; ++j) {
-    const double rate = here.rates()[j];
-    const double left = ((rate > 0.0 ? most[j] : least[j]) - here.death.orbit.values[j]) / ranges()[j];
-    if (rate == 0.0 || left / rate > step.length) continue;
-    const Index column = j == 0 ? here.first : here.along.size() - 1;
-    step = {{Eigen::RowVectorXd::Unit(here.along.size(), column), left}, std::max(left / rate, 0.0), true};
-  }
-  return step;
 }
 
 /// Which margins are zero because of the touches: those whose least value lies at one.
@@ -224,11 +205,11 @@ double DeathCurve::bend(const Place& here) const {
 /// Do two touches become one between two places? Their equations lead back then, or on with a guard that is greatest at
 /// its touch.
 bool DeathCurve::runs_back(const Place& before, const Place& now) const {
-  const std::array<double, 2> was = before.rates(), is = now.rates();
+  const std::array<double, 2> was = rates(before), is = rates(now);
   return (was[0] * is[0] < 0.0 && was[1] * is[1] < 0.0) || (bend(before) > 0.0 && !(bend(now) > 0.0));
 }
 
-CurvePoint DeathCurve::point_of_curve(const Place& here) const {
+CurvePoint DeathCurve::point(const Place& here) const {
   const Orbit& orbit = here.death.orbit;
   CurvePoint point{orbit.values, describe(problem_, orbit, nullptr)};
   point.solution.is_motion = true;
@@ -239,77 +220,24 @@ CurvePoint DeathCurve::point_of_curve(const Place& here) const {
   return point;
 }
 
-/// The parameters where a condition comes to hold, or to hold no more.
-std::vector<double> DeathCurve::located(const Place& before, const Place& now, double length,
-                                        const std::function<bool(const Place&)>& holds) const {
-  constexpr int halvings = 24;
-  double a = 0.0, b = length;
-  std::vector<double> values = now.death.orbit.values;
-  const bool at_first = holds(before);
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = 0.5 * (a + b);
-    const std::optional<Place> there = next(before, {before.along.transpose(), middle});
-    if (!there) break;
-    values = there->death.orbit.values;
-    (holds(*there) == at_first ? a : b) = middle;
-  }
-  return values;
-}
-
-/// Points of codimension two between two places.
-void DeathCurve::note(const Place& before, const Place& now, double length, Curve& curve) const {
-  for (const CurveTest& test : tests_) {
-    const double from = test.value(watched_at(before)), to = test.value(watched_at(now));
-    if (!(std::abs(from) >= test.noise && std::abs(to) >= test.noise)) continue;  // no sign, or no value
-    if ((from < 0.0) == (to < 0.0) || (test.falls && !(from > 0.0 && to < 0.0))) continue;
-    if (test.holds && !test.holds(now.watched)) continue;
-    const auto negative = [&](const Place& here) { return test.value(watched_at(here)) < 0.0; };
-    add_event(curve, {{test.met}, located(before, now, length, negative), curve.points.size() - 1}, ranges());
-  }
-  // A guard may be used up at another instant than its touch's, in the same leg.
+/// Besides, a guard may be used up at another instant than its touch's, in the same leg.
+bool DeathCurve::pass(const Place& before, Place& now, double length, Curve& curve) const {
+  note(before, now, length, curve);
   const TestValue* margin = violated(now);
-  if (margin == nullptr || violated(before) != nullptr) return;
-  const auto ends = [&](const Place& here) { return violated(here) != nullptr; };
+  if (margin == nullptr || violated(before) != nullptr) return false;
+  const auto left = [&](const Place& here) { return violated(here) != nullptr ? -1.0 : 1.0; };
+  const std::optional<Place> there = located(before, now, length, left);
   const Meeting met{
       .kind = Meeting::Kind::margin, .type = type_of(*margin, now.death.orbit.shape), .margin = used(*margin)};
-  add_event(curve, {{met}, located(before, now, length, ends), curve.points.size() - 1}, ranges());
+  add_event(curve, {{met}, values(there ? *there : now), curve.points.size() - 1}, ranges());
+  return false;
 }
 
 Curve DeathCurve::run(double sign) {
-  Curve curve;
-  curve.parameters = problem_.family().names;
-  curve.shape = point_.solution.orbit.shape;
-  curve.up.kind = CurveEnd::Kind::most_points;
   Place here = place(*point_.death, {});
-  if (here.rates()[1] * sign < 0.0) here.along = -here.along;
+  if (rates(here)[1] * sign < 0.0) here.along = -here.along;
   tests_ = curve_tests(point_, here.watched, own_margins_at(here));
-  double length = options_.longest_step;
-  curve.points.push_back(point_of_curve(here));
-  while (static_cast<int>(curve.points.size()) < options_.most_points && !stopped(options_.stop)) {
-    const Step step = step_from(here, length);
-    if (step.last) curve.up.kind = CurveEnd::Kind::range;
-    if (step.last && step.length < least_length) return curve;
-    std::optional<Place> ahead = next(here, step.demand);
-    if (!ahead || !inside(ahead->death.orbit.values) || here.along.dot(ahead->along) < straightness) {
-      length = 0.5 * step.length;
-      if (length > least_length) continue;
-      curve.up = {.kind = CurveEnd::Kind::no_step, .failed = true, .values = here.death.orbit.values};
-      return curve;
-    }
-    if (runs_back(here, *ahead)) {
-      curve.up = {.kind = CurveEnd::Kind::no_step, .failed = true, .values = here.death.orbit.values};
-      return curve;
-    }
-    note(here, *ahead, step.length, curve);
-    here = std::move(*ahead);
-    curve.points.push_back(point_of_curve(here));
-    if (options_.progress) options_.progress(static_cast<long>(curve.points.size()));
-    if (step.last) return curve;
-    curve.up.kind = CurveEnd::Kind::most_points;
-    length = std::min(options_.longest_step, 1.4 * length);
-  }
-  if (stopped(options_.stop)) curve.up.kind = CurveEnd::Kind::stopped;
-  return curve;
+  return walk(point_.solution.orbit.shape, problem_.family().names, std::move(here), options_.longest_step);
 }
 
 }  // namespace

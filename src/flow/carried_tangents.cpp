@@ -18,7 +18,7 @@ CarriedTangents::CarriedTangents(const CompiledSystem& system) : system_(&system
 }
 
 void CarriedTangents::begin(const Engine& engine) {
-  if (engine.hits().empty()) come_to_rest(engine);
+  engine.hits().empty() ? come_to_rest(engine) : move_sliders(engine, columns_);
 }
 
 void CarriedTangents::follow(const Engine& engine, Outcome outcome) {

@@ -60,6 +60,8 @@ class Engine : public Flight {
   void set_gap_zero(const mode::ContactRow& contact);
   void set_force_zero(int compliant);
   void gather_ties(int guard);
+  [[nodiscard]] bool turns_with(const mode::Guard& corner, const mode::Guard& slip) const;
+  [[nodiscard]] int of_pair(int guard) const;
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
   [[nodiscard]] bool tail_is_quiet(int stop, double duration);
   [[nodiscard]] std::span<const int> touching();

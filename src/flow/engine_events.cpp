@@ -1,5 +1,5 @@
-/// What happens at an event: ties, rest, next mode, complete chatter; impacts are in engine_impacts.cpp. See
-/// flow/motion.hpp for the order of things.
+/// What happens at an event: rest, next mode, complete chatter; ties are in engine_ties.cpp, impacts in
+/// engine_impacts.cpp. See flow/motion.hpp for the order of things.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,6 +26,7 @@ bool of_holding(GuardKind kind) {
 }  // namespace
 
 void Engine::handle(int guard, bool graze) {
+  guard = of_pair(guard);
   const mode::Guard& hit = here_->guards()[guard];
   hits_.push_back(guard);
   const mode::Frame& frame = system_->frame();
@@ -61,33 +62,6 @@ void Engine::handle(int guard, bool graze) {
   }
 }
 
-bool Engine::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {
-  const auto coupled = [&](const mode::Guard& gap, const mode::Guard& slip) {
-    return gap.kind == GuardKind::gap && slip.kind == GuardKind::slip &&
-           system_->coupling(gap.contact, slip.contact).same_pair;
-  };
-  return coupled(a, b) || coupled(b, a);
-}
-
-/// Other gaps and relative velocities that are zero at this instant, as far as rounding can tell, are made exactly
-/// zero: symmetric machines have their events in pairs.
-void Engine::gather_ties(int guard) {
-  const auto& guards = here_->guards();
-  const mode::Frame& frame = system_->frame();
-  for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
-    const int contact = guards[g].contact;
-    if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
-    if (!within_noise(g, arrived_x_)) continue;
-    if (guards[g].kind == GuardKind::gap)
-      set_gap_zero(frame.stops[contact]);
-    else if (guards[g].kind == GuardKind::slip)
-      set_velocity_zero(frame.frictions[contact]);
-    else
-      set_gap_zero(frame.compliant[contact]);
-    hits_.push_back(g);
-  }
-}
-
 /// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick):
 /// the guard has a double zero here, and the mode goes on unless its next derivative says otherwise.
 void Engine::force_limit(int guard, int contact, bool graze) {
@@ -101,48 +75,6 @@ void Engine::force_limit(int guard, int contact, bool graze) {
   orders_[guard] = touched;
   chatter_stop_ = -1;
   begin_flight();
-}
-
-/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound; -1 if there is
-/// no such stop. The gap's minimum and the zero of its rate are one instant, whichever of the two searches ends an ulp
-/// earlier.
-int Engine::stop_touched_at_rest(int friction) const {
-  const mode::Mode& mode = *here_;
-  for (int g = 0; g < mode.guard_count(); ++g) {
-    const mode::Guard& guard = mode.guards()[g];
-    if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
-    if (gap(*system_, guard.contact, X_.data()) <= 0.0 || within_noise(g, arrived_x_)) return guard.contact;
-  }
-  return -1;
-}
-
-/// Sets the velocity of a contact, or the gap of a stop, to exactly zero in the stored state.
-void Engine::set_velocity_zero(const mode::ContactRow& contact) {
-  X_.data()[system_->frame().u(contact.own)] = 0.0;
-  system_->frame().match_velocities(contact.own, X_.data());
-}
-
-void Engine::set_gap_zero(const mode::ContactRow& contact) {
-  X_.data()[contact.own] = 0.0;
-  system_->frame().match_displacements(contact.own, X_.data());
-}
-
-/// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go
-/// twice. Where a weak damper would make more than rounding of that, the force's rounding is the displacement's, and
-/// this one is moved.
-void Engine::set_force_zero(int compliant) {
-  constexpr double force_rounding = 0x1p-40;
-  const CompliantStop& stop = system_->model().compliant_stops[compliant];
-  const mode::ContactRow& row = system_->frame().compliant[compliant];
-  double& u = X_.data()[system_->frame().u(row.own)];
-  const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
-  if (std::abs(exact - u) <= force_rounding * std::abs(u)) {
-    u = exact;
-    system_->frame().match_velocities(row.own, X_.data());
-  } else {
-    X_.data()[row.own] = -stop.damping / stop.stiffness * u;
-    system_->frame().match_displacements(row.own, X_.data());
-  }
 }
 
 /// The gap has reached zero: an impact, or a graze without impulse.
@@ -166,38 +98,6 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
   const bool begins = kind == GuardKind::engage || kind == GuardKind::push;
   const EventKind event = begins ? EventKind::engage : was_on ? EventKind::disengage : EventKind::separate;
   choose_next_mode(Cause::compliant, reported_event(event, stops() + frictions() + compliant));
-}
-
-/// Moves the largest term so that the displacement (velocity) of a characteristic lies on its corner, or a force is
-/// zero, up to the rounding of a sum. The term is not zero, and not of a pair that is held: a displacement of a pair at
-/// a closed stop would open the stop by its rounding.
-void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
-  const int d = system_->frame().d;
-  const mode::Guard::Entry* most = nullptr;
-  for (const mode::Guard::Entry& entry : guard.entries) {
-    if (entry.column >= 2 * d || here_->steady(entry.column % d)) continue;
-    if (entry.column < d && system_->frame().rate_follows(entry.column)) {  // a slider: no body moves with it
-      most = &entry;
-      break;
-    }
-    if (X_.data()[entry.column] == 0.0) continue;
-    if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
-  }
-  if (most == nullptr) return;
-  const int own = most->column % d;
-  X_.data()[most->column] -= guard.at(X_.data()) / most->value;
-  most->column < d ? system_->frame().match_displacements(own, X_.data())
-                   : system_->frame().match_velocities(own, X_.data());
-}
-
-/// A holding force that is one number times a factor made exactly zero. Rounding derived from that number would hardly
-/// be any near its zero, and what the motion has left of it would be taken for a force that holds.
-void Engine::set_holding_guard_zero(const mode::Guard& guard) {
-  if (guard.single < 0) return;
-  const mode::Frame& frame = system_->frame();
-  X_.data()[guard.single] = 0.0;
-  guard.single < frame.d ? frame.match_displacements(guard.single, X_.data())
-                         : frame.match_velocities(guard.single - frame.d, X_.data());
 }
 
 /// A characteristic passes a corner, a normal force or the excess of a spring force its zero; or touches it.

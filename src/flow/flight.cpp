@@ -233,16 +233,18 @@ void Flight::restart_window(double x) {
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_window_.data(), magnitude_.data());
 }
 
-/// Is a gap or a velocity, at x of the window and in the state there, within its rounding bound of zero? False for
-/// forces.
+/// Is a gap, a velocity or a slider's way to its limit, at x of the window and in the state there, within its rounding
+/// bound of zero? False for forces.
 bool Flight::within_noise(int guard, double x) const {
   const mode::Guard& h = here_->guards()[guard];
   const int order = orders_[guard];
+  const bool slider = mode::of_corner(h.kind) && system_->frame().slider(h.contact) != nullptr;
   const bool force = h.kind != mode::GuardKind::gap && h.kind != mode::GuardKind::slip &&
-                     h.kind != mode::GuardKind::engage && h.kind != mode::GuardKind::leave;
+                     h.kind != mode::GuardKind::engage && h.kind != mode::GuardKind::leave && !slider;
   if (force || order < 0 || order == never) return false;
   const double value = h.kind == mode::GuardKind::gap    ? gap(*system_, h.contact, X_.data())
                        : h.kind == mode::GuardKind::slip ? sliding_velocity(*system_, h.contact, X_.data())
+                       : slider                          ? h.at(X_.data())
                                                          : depth(*system_, h.contact, X_.data());
   if (std::abs(value) > 0x1p-30 * size_) return false;
   event::Hull hull;
@@ -256,12 +258,15 @@ bool Flight::within_noise(int guard, double x) const {
   return std::abs(value) <= lift * noise + instant * std::abs(rate(h));
 }
 
-/// The rate of a gap or a relative velocity in the state now.
+/// The rate of a guard in the state now.
 double Flight::rate(const mode::Guard& guard) const {
-  if (guard.single < 0) return 0.0;
-  double sum = 0.0;
-  for (int j = 0; j < here_->size(); ++j) sum += here_->system()(guard.single, j) * X_.data()[j];
-  return guard.factor * sum;
+  double all = 0.0;
+  for (const mode::Guard::Entry& entry : guard.entries) {
+    double sum = 0.0;
+    for (int j = 0; j < here_->size(); ++j) sum += here_->system()(entry.column, j) * X_.data()[j];
+    all += entry.value * sum;
+  }
+  return all;
 }
 
 /// Would a sharper state perhaps decide otherwise what is an event, or which events are one? X_ is the state at the

@@ -70,6 +70,7 @@ class Division {
   [[nodiscard]] std::size_t owner_of_piece(int characteristic) const;
   [[nodiscard]] bool changed(const Guard& guard) const;
   void add_forces_at_limits(const double* X);
+  void drop_touches();
   void drop_hits_of_others();
   void take_states(std::size_t k, ContactStates& states) const;
 
@@ -87,11 +88,23 @@ Division::Division(const Engine& engine, bool backward)
       behind_(engine.system().mode(engine.mode_id())),
       hits_(engine.hits().begin(), engine.hits().end()),
       strikes_(separated_strikes(frame_, engine.strikes())) {
+  drop_touches();
   add_forces_at_limits(engine.extended_before().data());
+  ranges::sort(hits_);  // the search's own order is rounding: an orbit has one order in each of its cycles
   if (backward) std::reverse(hits_.begin(), hits_.end());
   std::stable_partition(hits_.begin(), hits_.end(),
                         [&](int g) { return passes_smoothly(model_, before_.guards()[g]); });
   drop_hits_of_others();
+}
+
+/// A slider that is just at its limit as its pair turns back rests on: the instant has no event of its own.
+void Division::drop_touches() {
+  const auto touches = [&](int g) {
+    const Guard& own = before_.guards()[g];
+    return mode::of_corner(own.kind) && frame_.slider(own.contact) != nullptr && !changed(own);
+  };
+  for (std::size_t k = hits_.size(); k > 1; --k)
+    if (touches(hits_[k - 1])) hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k) - 1);
 }
 
 /// Is the state of a guard's contact another one behind the instant?

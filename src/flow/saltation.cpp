@@ -126,9 +126,17 @@ void hold_still(const Engine& engine, Eigen::MatrixXd& tangents) {
     if (mode.steady(i)) tangents.row(frame.u(i)).setZero();
   for (std::size_t i = 0; i < frame.stops.size(); ++i)
     if (mode.states().stops[i] == mode::StopState::closed) tangents.row(frame.stops[i].own).setZero();
-  for (const mode::SliderRow& row : frame.sliders)
-    if (!row.rests(mode.states().pieces))
-      tangents.row(row.own) = row.displacement.head(frame.d) * tangents.topRows(frame.d);
+  move_sliders(engine, tangents);
+}
+
+void move_sliders(const Engine& engine, Eigen::MatrixXd& tangents) {
+  const mode::Frame& frame = engine.system().frame();
+  const mode::Mode& mode = engine.system().mode(engine.mode_id());
+  for (const mode::SliderRow& row : frame.sliders) {
+    const bool rests = row.rests(mode.states().pieces);
+    tangents.row(frame.u(row.own)) = (rests ? 0.0 : row.pair.sign) * tangents.row(frame.u(row.pair.own));
+    if (!rests) tangents.row(row.own) = row.displacement.head(frame.d) * tangents.topRows(frame.d);
+  }
 }
 
 bool differentiable(const Engine& engine) {

@@ -32,6 +32,9 @@ void pass_event(const Engine& engine, Eigen::MatrixXd& tangents);
 /// rounding only.
 void hold_still(const Engine& engine, Eigen::MatrixXd& tangents);
 
+/// Sliders rest, or go with their pairs, and their rates say so: a large mode takes p' = u for granted.
+void move_sliders(const Engine& engine, Eigen::MatrixXd& tangents);
+
 /// Does the last instant of `engine` have a derivative? The instant has one where the guards that were zero together
 /// give the same, whichever of them comes first: bodies that do not act on each other, or several contacts on one pair.
 [[nodiscard]] bool differentiable(const Engine& engine);

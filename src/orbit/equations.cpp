@@ -8,6 +8,7 @@
 #include "base/dense.hpp"
 #include "mode/numbering.hpp"
 #include "orbit/kept.hpp"
+#include "orbit/ties.hpp"
 #include "section/settling.hpp"
 #include "slapstick/base/error.hpp"
 
@@ -131,6 +132,11 @@ void move(const Problem& problem, const Linearised& at, const VectorXd& change, 
   orbit.advance = at.advance;
 }
 
+bool at_rest(double velocity, double displacement, double cycle) {
+  constexpr double rounding = 0x1p-40;  // of the displacement
+  return velocity * cycle <= rounding * displacement;
+}
+
 VectorXd sizes(const Problem& problem, const Orbit& orbit) {
   constexpr int samples =
       4;  // of each leg: at its events an orbit may be next to nothing, as a lone mass that grazes its stop
@@ -147,6 +153,8 @@ VectorXd sizes(const Problem& problem, const Orbit& orbit) {
       flow(set.mode(orbit.shape.legs[i].states), orbit.duration(i) * set.period() / samples, X);
     }
   }
+  const double cycle = (orbit.t.back() - orbit.t.front()) * set.period();
+  if (at_rest(velocity, displacement, cycle)) velocity = displacement / cycle;
   VectorXd state(2 * n);
   state << VectorXd::Constant(n, displacement > 0.0 ? displacement : 1.0),
       VectorXd::Constant(n, velocity > 0.0 ? velocity : 1.0);
@@ -266,21 +274,6 @@ double deflation(const std::vector<VectorXd>& taken_out, const VectorXd& v, cons
   return 1.0 / (1.0 - slope);
 }
 
-/// A tied leg has no length, to what Newton's method leaves. One that has got a length is a leg as any other.
-/// @param left  the last step: a longer leg is no rounding. A bound far above it would hide what a parameter takes
-/// apart
-void settle_ties(Orbit& orbit, double left) {
-  const double rounding =
-      100.0 * std::max(left, enough_step);  // of the cycle: an instant gathers the errors of a state
-  for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    if (!orbit.tied(i)) continue;
-    if (std::abs(orbit.duration(i)) > rounding * (orbit.t.back() - orbit.t.front()))
-      orbit.shape.legs[i].tied = false;
-    else
-      orbit.t[i + 1] = orbit.t[i];
-  }
-}
-
 void newton(const Problem& problem, Orbit& orbit, const std::vector<Condition>& conditions, int most_steps,
             const std::vector<Orbit>& besides, NewtonResult& result) {
   const VectorXd scale = sizes(problem, orbit);
@@ -326,7 +319,7 @@ NewtonResult solve(const Problem& problem, Orbit& orbit, const std::vector<Condi
   NewtonResult result;
   try {
     newton(problem, orbit, conditions, most_steps, besides, result);
-    if (result.converged) settle_ties(orbit, result.last_step);
+    if (result.converged) settle_ties(orbit, rounding_of_instants(result.last_step));
   } catch (const InputError& error) {
     result.refusal = error.what();
   } catch (const NumericalError& error) {

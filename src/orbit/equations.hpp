@@ -85,6 +85,9 @@ struct Linearised {
 /// they have to make good.
 void move(const Problem& problem, const Linearised& at, const Eigen::VectorXd& change, double fraction, Orbit& orbit);
 
+/// Do velocities say no more than that all is at rest? Rounding moves a displacement by so much in a cycle.
+[[nodiscard]] bool at_rest(double velocity, double displacement, double cycle);
+
 /// Typical sizes of the unknowns: the orbit's largest displacement and velocity, a forcing period or without forcing
 /// the cycle, the parameters' own.
 [[nodiscard]] Eigen::VectorXd sizes(const Problem& problem, const Orbit& orbit);

@@ -9,6 +9,7 @@
 #include "flow/engine.hpp"
 #include "flow/instant_parts.hpp"
 #include "flow/saltation.hpp"
+#include "orbit/kept.hpp"
 #include "slapstick/orbit/special_point.hpp"
 
 namespace slapstick::orbit {
@@ -79,6 +80,15 @@ std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
   return all;
 }
 
+/// Is it a limit of what rests, a slider or a body that friction holds? Where a motion settles it may have drawn such
+/// a one along until it is just not drawn along any more: it touches its limit in each cycle, and rests on.
+bool rests(const flow::CompiledSystem& system, const mode::Guard& guard, const mode::ContactStates& states) {
+  if (guard.kind == mode::GuardKind::stick_above || guard.kind == mode::GuardKind::stick_below)
+    return may_be_drawn_along(system.model().frictions[static_cast<std::size_t>(guard.contact)]);
+  const mode::SliderRow* slider = mode::of_corner(guard.kind) ? system.frame().slider(guard.contact) : nullptr;
+  return slider != nullptr && slider->rests(states.pieces);
+}
+
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
@@ -116,7 +126,9 @@ void EventReader::read() {
     read_.back().x = last;
     return;
   }
-  touched_ = engine.hit_guard() == nullptr || leg.event == EventKind::graze;
+  const mode::Guard* hit = engine.hit_guard();
+  if (hit != nullptr && leg.event == EventKind::graze && rests(system, *hit, leg.states)) return;
+  touched_ = hit == nullptr || leg.event == EventKind::graze;
   // A force that has come to zero up to rounding may come to zero again: what changes no mode is no event.
   if (touched_ || (motion_.segment().mode == motion_.mode_id() && motion_.strikes().empty())) return;
   leg.differentiable = flow::differentiable(engine);

@@ -27,6 +27,9 @@ Extent::Extent(const Problem& problem, const Orbit& orbit)
   const Index displacements = range.size() - velocities_;
   if (displacements > 0) displacement_ = range.head(displacements).maxCoeff();
   velocity_ = range.tail(velocities_).maxCoeff();
+  const double away = displacements > 0 ? low.cwiseAbs().cwiseMax(high.cwiseAbs()).head(displacements).maxCoeff() : 0.0,
+               cycle = (orbit.t.back() - orbit.t.front()) * set.period();
+  if (at_rest(velocity_, away, cycle)) velocity_ = 0.0;
 }
 
 double Extent::distance(VectorXd a, VectorXd b) const {

@@ -75,6 +75,10 @@ void demand_off_limits(const Problem& problem, const ModeSet& set, const Orbit& 
   }
 }
 
+bool may_be_drawn_along(const FrictionContact& friction) {
+  return !friction.normal && friction.static_friction == friction.kinetic_friction;
+}
+
 int kept_numbers(const Problem& problem, const Orbit& orbit) {
   return static_cast<int>(linearise(problem, ModeSet(problem.family(), orbit.values), orbit).kept.size());
 }

@@ -23,6 +23,10 @@ void settle_forgotten(const Problem& problem, const Linearised& at, const Eigen:
 void demand_off_limits(const Problem& problem, const ModeSet& set, const Orbit& orbit,
                        const std::vector<Eigen::Index>& kept);
 
+/// Can friction that holds a body be at its limit, and the body stay or be drawn along? Not where it falls as the body
+/// begins to slip: the body jumps.
+[[nodiscard]] bool may_be_drawn_along(const FrictionContact& friction);
+
 /// How many numbers of an orbit are kept: along these dimensions of its family it can be followed.
 [[nodiscard]] int kept_numbers(const Problem& problem, const Orbit& orbit);
 

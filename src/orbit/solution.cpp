@@ -10,6 +10,7 @@
 #include "orbit/extremes.hpp"
 #include "orbit/record.hpp"
 #include "orbit/short_legs.hpp"
+#include "orbit/ties.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
 #include "slapstick/section/stop_choice.hpp"
 
@@ -111,12 +112,15 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
   return all;
 }
 
-bool Solution::stable() const {
-  if (!differentiable(orbit.shape)) return false;
+double Solution::largest_across() const {
   std::vector<std::complex<double>> others = multipliers;
   for (int along = 0; along < family; ++along) drop_kept_direction(others);
-  return ranges::all_of(others, [](auto mu) { return std::abs(mu) < 1.0; });
+  double largest = 0.0;
+  for (const auto& mu : others) largest = std::max(largest, std::abs(mu));
+  return largest;
 }
+
+bool Solution::stable() const { return differentiable(orbit.shape) && largest_across() < 1.0; }
 
 std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values) {
   return std::make_shared<const Problem>(family, values);
@@ -203,6 +207,7 @@ std::optional<Orbit> refine(const Problem& problem, Orbit guess, const std::vect
   const int most_steps = besides.empty() ? 20 : 60;  // a step that is turned round leads into the unknown
   const NewtonResult result = solve(problem, guess, fixed_parameters(problem, guess.legs()), most_steps, besides);
   if (!result.converged) return std::nullopt;
+  tie_sliders(problem.base().compiled().frame(), guess, rounding_of_instants(result.last_step));
   return guess;
 }
 

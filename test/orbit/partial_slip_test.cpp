@@ -236,5 +236,23 @@ TEST(PartialSlip, IsNotWhatMakesAConservativeFamily) {
   EXPECT_THROW(static_cast<void>(orbit::follow(*problem, start, {.from = 0.9, .to = 1.1})), NumericalError);
 }
 
+/// At rest there is no velocity to go by but rounding. A body that friction holds is one of a family of one dimension,
+/// whatever else settles beside it.
+TEST(PartialSlip, OfAMachineAtRestIsAFamilyOfWhatIsHeldAlone) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 3\n[[coordinate]]\nname = 'x1'\nmass = 1.7\n[[coordinate]]\nname = 'x2'\nmass = 1\n"
+      "[[force]]\non = 'x1'\namplitude = -0.7\nharmonic = 0\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 0.41\n[[spring]]\nbetween = ['x2', 'ground']\nstiffness = "
+      "0.2\n[[friction]]\nname = 'pad'\nbetween = ['x2', 'ground']\nstatic = 1\nkinetic = 1\nnormal_force = { "
+      "constant = 1 }\n[[force]]\non = 'pad'\namplitude = -0.1\nharmonic = 2\n[[damper]]\nbetween = ['x1', "
+      "'x2']\ncoefficient = "
+      "0.3\n[start]\nx1 = -0.4\nv1 = -0.4\nx2 = -0.5\nv2 = -0.4\n",
+      "m.toml");
+  const auto found = settled(definition, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->family, 1);
+  EXPECT_EQ(classify(System(definition.build()), definition.start()).family, 1);
+}
+
 }  // namespace
 }  // namespace slapstick::test

@@ -62,6 +62,8 @@ struct Solution {
   int family = 0;
 
   [[nodiscard]] bool isolated() const { return family == 0; }
+  /// The largest modulus of the multipliers without those, nearest to 1, that lead along the family; 0 without any.
+  [[nodiscard]] double largest_across() const;
   /// All multipliers are known, and inside the unit circle except those that lead along the family: a motion beside it
   /// settles on a member.
   [[nodiscard]] bool stable() const;

@@ -1,0 +1,130 @@
+/// What is zero at the instant of an event, together with what ended the flight, and is made exactly so.
+#include <cmath>
+
+#include "flow/engine.hpp"
+#include "flow/impact_law.hpp"
+
+namespace slapstick::flow {
+
+using mode::GuardKind;
+
+/// Is it the end of a slider's slip, by the velocity that is zero at the other guard?
+bool Engine::turns_with(const mode::Guard& corner, const mode::Guard& slip) const {
+  if (!of_corner(corner.kind) || slip.kind != GuardKind::slip) return false;
+  const mode::SliderRow* slider = system_->frame().slider(corner.contact);
+  return slider != nullptr && !slider->rests(here_->states().pieces) &&
+         system_->frame().in_step(system_->frame().frictions[slip.contact].own, slider->pair.own);
+}
+
+/// The guard that tells of a pair's velocity: of a slider's slip that ends with that of its pair, the pair's.
+int Engine::of_pair(int guard) const {
+  const auto& guards = here_->guards();
+  for (int g = 0; g < static_cast<int>(guards.size()); ++g)
+    if (turns_with(guards[guard], guards[g]) && within_noise(g, arrived_x_)) return g;
+  return guard;
+}
+
+bool Engine::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {
+  const auto coupled = [&](const mode::Guard& gap, const mode::Guard& slip) {
+    return gap.kind == GuardKind::gap && slip.kind == GuardKind::slip &&
+           system_->coupling(gap.contact, slip.contact).same_pair;
+  };
+  return coupled(a, b) || coupled(b, a) || turns_with(a, b) || turns_with(b, a);
+}
+
+/// Other gaps, relative velocities and ways of sliders to their limits that are zero at this instant, as far as
+/// rounding can tell, are made exactly zero: symmetric machines have their events in pairs.
+void Engine::gather_ties(int guard) {
+  const auto& guards = here_->guards();
+  const mode::Frame& frame = system_->frame();
+  for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
+    const int contact = guards[g].contact;
+    if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
+    if (!within_noise(g, arrived_x_)) continue;
+    if (guards[g].kind == GuardKind::gap)
+      set_gap_zero(frame.stops[contact]);
+    else if (guards[g].kind == GuardKind::slip)
+      set_velocity_zero(frame.frictions[contact]);
+    else if (of_corner(guards[g].kind))
+      set_crossing_guard_zero(guards[g]);
+    else
+      set_gap_zero(frame.compliant[contact]);
+    hits_.push_back(g);
+  }
+}
+
+/// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound; -1 if there is
+/// no such stop. The gap's minimum and the zero of its rate are one instant, whichever of the two searches ends an ulp
+/// earlier.
+int Engine::stop_touched_at_rest(int friction) const {
+  const mode::Mode& mode = *here_;
+  for (int g = 0; g < mode.guard_count(); ++g) {
+    const mode::Guard& guard = mode.guards()[g];
+    if (guard.kind != GuardKind::gap || !system_->coupling(guard.contact, friction).same_pair) continue;
+    if (gap(*system_, guard.contact, X_.data()) <= 0.0 || within_noise(g, arrived_x_)) return guard.contact;
+  }
+  return -1;
+}
+
+/// Sets the velocity of a contact, or the gap of a stop, to exactly zero in the stored state.
+void Engine::set_velocity_zero(const mode::ContactRow& contact) {
+  X_.data()[system_->frame().u(contact.own)] = 0.0;
+  system_->frame().match_velocities(contact.own, X_.data());
+}
+
+void Engine::set_gap_zero(const mode::ContactRow& contact) {
+  X_.data()[contact.own] = 0.0;
+  system_->frame().match_displacements(contact.own, X_.data());
+}
+
+/// The force of a compliant stop has reached zero: made exactly so by the speed of its pair, so that it is not let go
+/// twice. Where a weak damper would make more than rounding of that, the force's rounding is the displacement's, and
+/// this one is moved.
+void Engine::set_force_zero(int compliant) {
+  constexpr double force_rounding = 0x1p-40;
+  const CompliantStop& stop = system_->model().compliant_stops[compliant];
+  const mode::ContactRow& row = system_->frame().compliant[compliant];
+  double& u = X_.data()[system_->frame().u(row.own)];
+  const double exact = -stop.stiffness / stop.damping * X_.data()[row.own];
+  if (std::abs(exact - u) <= force_rounding * std::abs(u)) {
+    u = exact;
+    system_->frame().match_velocities(row.own, X_.data());
+  } else {
+    X_.data()[row.own] = -stop.damping / stop.stiffness * u;
+    system_->frame().match_displacements(row.own, X_.data());
+  }
+}
+
+/// Moves the largest term so that the displacement (velocity) of a characteristic lies on its corner, or a force is
+/// zero, up to the rounding of a sum. The term is not zero, and not of a pair that is held: a displacement of a pair at
+/// a closed stop would open the stop by its rounding.
+void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
+  const int d = system_->frame().d;
+  const mode::Guard::Entry* most = nullptr;
+  for (const mode::Guard::Entry& entry : guard.entries) {
+    if (entry.column >= 2 * d || here_->steady(entry.column % d)) continue;
+    if (entry.column < d && system_->frame().rate_follows(entry.column)) {  // a slider: no body moves with it
+      most = &entry;
+      break;
+    }
+    if (X_.data()[entry.column] == 0.0) continue;
+    if (most == nullptr || std::abs(entry.value) > std::abs(most->value)) most = &entry;
+  }
+  if (most == nullptr) return;
+  const int own = most->column % d;
+  X_.data()[most->column] -= guard.at(X_.data()) / most->value;
+  most->column < d ? system_->frame().match_displacements(own, X_.data())
+                   : system_->frame().match_velocities(own, X_.data());
+}
+
+/// A holding force that is one number times a factor made exactly zero. Rounding derived from that number would hardly
+/// be any near its zero, and what the motion has left of it would be taken for a force that holds.
+void Engine::set_holding_guard_zero(const mode::Guard& guard) {
+  if (guard.single < 0) return;
+  const mode::Frame& frame = system_->frame();
+  X_.data()[guard.single] = 0.0;
+  guard.single < frame.d ? frame.match_displacements(guard.single, X_.data())
+                         : frame.match_velocities(guard.single - frame.d, X_.data());
+}
+
+}  // namespace slapstick::flow

@@ -1,0 +1,127 @@
+/// Sliders whose events come at one instant, in each cycle or because a motion has drawn them there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "followed.hpp"
+#include "slapstick/attractor/classify.hpp"
+
+namespace slapstick::test {
+namespace {
+
+std::string number(double value) { return std::to_string(value); }
+
+std::string link(const std::string& kind, const std::string& body, const std::string& keys) {
+  return "[[" + kind + "]]\nbetween = ['" + body + "', 'ground']\n" + keys + "\n";
+}
+
+std::string slider(const std::string& name, const std::string& body, double stiffness, double limit) {
+  return link("jenkins", body,
+              "name = '" + name + "'\nstiffness = " + number(stiffness) + "\nlimit = " + number(limit));
+}
+
+/// Unit bodies side by side with a spring between neighbours: each on a spring, a damper and a slider, under one force.
+struct Row {
+  int bodies = 2;
+  double coupling = 0.5, force = 1.0, phase = 0.0;
+
+  [[nodiscard]] ModelDefinition definition() const {
+    std::string text = "name = 'row'\nomega = 'omega'\n[parameters]\nomega = 0.7\n";
+    for (int i = 0; i < bodies; ++i) {
+      const std::string body = "x" + std::to_string(i);
+      text += "[[coordinate]]\nname = '" + body + "'\nmass = 1\n";
+      text += "[[force]]\non = '" + body + "'\namplitude = " + number(force) + "\n";
+      text += link("spring", body, "stiffness = 1") + link("damper", body, "coefficient = 0.3");
+      text += slider("s" + std::to_string(i), body, 1.0, 0.4);
+      if (i > 0)
+        text += "[[spring]]\nbetween = ['x" + std::to_string(i - 1) + "', '" + body +
+                "']\nstiffness = " + number(coupling) + "\n";
+    }
+    return ModelDefinition::parse(text, "row.toml");
+  }
+};
+
+/// Equal bodies that move alike are as one body, whose slider turns and slips alone. The state of a symmetric motion
+/// differs by rounding from body to body: that is no order of events.
+TEST(SliderTies, OfEqualBodiesAreAsOneBody) {
+  const orbit::Branch one = followed(Row{.bodies = 1}.definition(), "omega", 0.7, 0.4, 1.6);
+  const orbit::Branch two = followed(Row{.bodies = 2}.definition(), "omega", 0.7, 0.4, 1.6);
+  EXPECT_FALSE(two.failed()) << orbit::ended(two);
+  EXPECT_EQ(two.special.size(), one.special.size());
+  EXPECT_EQ(two.down.kind, orbit::BranchEnd::Kind::range);
+  EXPECT_EQ(two.up.kind, orbit::BranchEnd::Kind::range);
+}
+
+TEST(SliderTies, OfEqualBodiesBeginAndCeaseToSlipAsOfOneBody) {
+  const orbit::Branch one = followed(Row{.bodies = 1, .force = 0.2}.definition(), "omega", 0.7, 0.4, 1.6);
+  const orbit::Branch two = followed(Row{.bodies = 2, .force = 0.2}.definition(), "omega", 0.7, 0.4, 1.6);
+  EXPECT_FALSE(two.failed()) << orbit::ended(two);
+  ASSERT_EQ(one.special.size(), 2U);
+  ASSERT_EQ(two.special.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(two.special[k].value, one.special[k].value, 1e-12);
+    EXPECT_EQ(two.special[k].passage, one.special[k].passage) << k;
+  }
+}
+
+/// The multipliers of many equal bodies are those of one, each once for each body: a large machine is flown by other
+/// operators than a small one.
+TEST(SliderTies, LeaveTheMultipliersOfEqualMachinesThoseOfOne) {
+  const ModelDefinition single = Row{.bodies = 1, .phase = 2.0}.definition(),
+                        many = Row{.bodies = 7, .coupling = 0.0, .phase = 2.0}.definition();
+  const Classification one = classify(System(single.build()), single.start());
+  const Classification all = classify(System(many.build()), many.start());
+  ASSERT_EQ(one.multipliers.size(), 3U);
+  ASSERT_EQ(all.multipliers.size(), 21U);
+  EXPECT_GT(std::abs(one.multipliers[0]), 1e-3);
+  for (std::size_t i = 0; i < 21; ++i) {
+    const auto near = std::ranges::min(one.multipliers, {}, [&](auto mu) { return std::abs(mu - all.multipliers[i]); });
+    EXPECT_LT(std::abs(near - all.multipliers[i]), 1e-10) << i;
+    const auto same = [&](auto mu) { return std::abs(mu - near) < 1e-10; };
+    EXPECT_EQ(std::ranges::count_if(all.multipliers, same), 7 * std::ranges::count_if(one.multipliers, same)) << i;
+  }
+}
+
+/// A small swing closes where it began, and two sliders that turned there together begin to slip at one instant again.
+/// Which of them a search sees first is rounding, and may be another one in the next cycle.
+TEST(SliderTies, HaveOneOrderInAllCycles) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 'omega'\n[parameters]\nomega = 0.5\n[[coordinate]]\nname = 'x'\nmass = 1.034\n"
+      "[[force]]\non = 'x'\namplitude = 0.9546\n[[force]]\non = 'x'\namplitude = -0.1156\nharmonic = 2\nphase = "
+      "0.4505\n" +
+          link("spring", "x", "stiffness = 0.5216") + link("damper", "x", "coefficient = 0.09129") +
+          slider("a", "x", 0.6096, 0.8501) + slider("b", "x", 1.465, 0.3959) + slider("c", "x", 0.3275, 0.04515) +
+          "[start]\ns_a = -0.8479\ns_b = -0.1394\ns_c = -0.0847\n",
+      "m.toml");
+  EXPECT_TRUE(settled(definition, {{"omega", 0.4345}}));
+  const orbit::Branch down = followed(definition, "omega", 0.45, 0.42, 0.46),
+                      up = followed(definition, "omega", 0.425, 0.42, 0.46);
+  for (const orbit::Branch* branch : {&down, &up}) {
+    EXPECT_FALSE(branch->failed()) << orbit::ended(*branch);
+    ASSERT_EQ(branch->special.size(), 2U);
+    EXPECT_NEAR(branch->special[1].value, 0.4345900909, 1e-10);
+    for (const orbit::SpecialPoint& point : branch->special) EXPECT_EQ(point.passage, orbit::Passage::persistence);
+  }
+}
+
+/// A motion that grows draws a slider along until it is just not drawn along any more. The cycle touches the limit and
+/// is a cycle: the slider rests.
+TEST(SliderTies, SliderThatWasDrawnToItsLimitRestsThere) {
+  for (const bool held : {false, true}) {
+    const std::string pad = held ? "[[friction]]\nname = 'pad'\nbetween = ['x', 'ground']\nstatic = 0.02\n"
+                                   "kinetic = 0.02\n"
+                                 : "";
+    const auto definition = ModelDefinition::parse(
+        "name = 'm'\nomega = 1.1\n[[coordinate]]\nname = 'x'\nmass = 1\n[[force]]\non = 'x'\namplitude = 0.15\n" +
+            link("spring", "x", "stiffness = 0.8") + link("damper", "x", "coefficient = 0.4") +
+            slider("slips", "x", 0.3, 0.05) + slider("drawn", "x", 0.5, 0.2) + "[start]\ns_drawn = -1.2\n" + pad,
+        "m.toml");
+    const auto found = settled(definition, {});
+    const Classification seen = classify(System(definition.build()), definition.start());
+    ASSERT_TRUE(found) << held;
+    EXPECT_EQ(found->label, seen.label);
+  }
+}
+
+}  // namespace
+}  // namespace slapstick::test

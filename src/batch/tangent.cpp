@@ -33,7 +33,7 @@ void EngineTangent::begin(const flow::Engine& engine) {
 
 void EngineTangent::take(std::span<const double> delta, double power, const flow::Engine& engine) {
   power_ = power;
-  carried_.set(column(delta));
+  carried_.set(column(delta), engine);
   carried_.begin(engine);
   keep();
 }
@@ -47,7 +47,7 @@ void EngineTangent::follow(const flow::Engine& engine, Outcome outcome) {
   const int power = std::ilogb(size);
   for (double& x : delta_) x = std::scalbn(x, -power);
   power_ += power;
-  carried_.set(column(delta_));
+  carried_.set(column(delta_), engine);
 }
 
 void EngineTangent::keep() {

@@ -18,7 +18,7 @@ CarriedTangents::CarriedTangents(const CompiledSystem& system) : system_(&system
 }
 
 void CarriedTangents::begin(const Engine& engine) {
-  engine.hits().empty() ? come_to_rest(engine) : move_sliders(engine, columns_);
+  if (engine.hits().empty()) come_to_rest(engine);
 }
 
 void CarriedTangents::follow(const Engine& engine, Outcome outcome) {
@@ -78,13 +78,14 @@ void CarriedTangents::hold(const std::vector<int>& rows, Eigen::Index offset) {
              columns_.middleRows(offset, frame.d));
 }
 
-void CarriedTangents::set(const Eigen::MatrixXd& tangents) {
+void CarriedTangents::set(const Eigen::MatrixXd& tangents, const Engine& engine) {
   const mode::Frame& frame = system_->frame();
   columns_.resize(2 * frame.d, tangents.cols());
   columns_.topRows(frame.d) = frame.dependence * tangents.topRows(frame.n);
   columns_.bottomRows(frame.d) = frame.dependence * tangents.bottomRows(frame.n);
   for (const mode::InnerRow& row : frame.inner)
     columns_.row(frame.u(row.own)) = row.rate.head(frame.n) * columns_.topRows(frame.n);
+  move_sliders(engine, columns_);
 }
 
 Eigen::MatrixXd CarriedTangents::get() const {

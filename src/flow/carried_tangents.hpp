@@ -25,7 +25,8 @@ class CarriedTangents {
 
   /// 2 n numbers each: the first n displacements, the first n velocities, in contact coordinates.
   [[nodiscard]] Eigen::MatrixXd get() const;
-  void set(const Eigen::MatrixXd& tangents);
+  /// @param engine  as it stands: rates of inner coordinates and of sliders follow from the others
+  void set(const Eigen::MatrixXd& tangents, const Engine& engine);
 
  private:
   void flow(const Motion::Segment& segment);

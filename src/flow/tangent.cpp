@@ -9,7 +9,7 @@ namespace slapstick {
 struct TangentMotion::Parts {
   Parts(const System& system, const State& state, const Eigen::MatrixXd& tangents, Instant start, MotionOptions options)
       : motion(system, state, start, options), carried(motion.system().compiled()) {
-    carried.set(tangents);
+    carried.set(tangents, motion.engine());
     carried.begin(motion.engine());
   }
 
@@ -37,6 +37,8 @@ Outcome TangentMotion::advance(Instant end) {
 }
 const Motion& TangentMotion::motion() const { return parts_->motion; }
 Eigen::MatrixXd TangentMotion::tangents() const { return parts_->carried.get(); }
-void TangentMotion::set_tangents(const Eigen::MatrixXd& tangents) { parts_->carried.set(tangents); }
+void TangentMotion::set_tangents(const Eigen::MatrixXd& tangents) {
+  parts_->carried.set(tangents, parts_->motion.engine());
+}
 
 }  // namespace slapstick

@@ -183,9 +183,11 @@ void Series::lay_out(const Outline& outline, int displacements) {
   all_.reach = block.take<double>(event::blocks * m);
   lanes_ = block.release();
 
+  // A term of a number that changes nothing is zero, as of a slider that slips: it reaches no further one.
   std::fill_n(all_.reach, event::blocks * m, 0.0);
   for (int i = 0; i < m; ++i)
     for (int at = column_ends_[i]; at < column_ends_[i + 1]; ++at) {
+      if (column_ends_[entries_[at].row] == column_ends_[entries_[at].row + 1]) continue;
       int from = 0;
       while (entries_[at].row >= all_.block_ends[from + 1]) ++from;
       all_.reach[from * m + i] += std::abs(entries_[at].value);

@@ -29,6 +29,7 @@ Extent::Extent(const Problem& problem, const Orbit& orbit)
   velocity_ = range.tail(velocities_).maxCoeff();
   const double away = displacements > 0 ? low.cwiseAbs().cwiseMax(high.cwiseAbs()).head(displacements).maxCoeff() : 0.0,
                cycle = (orbit.t.back() - orbit.t.front()) * set.period();
+  if (at_rest(displacement_ / cycle, away, cycle)) displacement_ = 0.0;
   if (at_rest(velocity_, away, cycle)) velocity_ = 0.0;
 }
 

@@ -96,7 +96,7 @@ std::optional<Orbit> record(const Motion& start, int n, const std::atomic<bool>*
   if (reader.touched() || stopped(stop)) return std::nullopt;
   if (events.empty()) {
     if (n == 0) return std::nullopt;
-    motion.advance({motion.time().period + 1, 0.0});
+    if (!run_to(motion, {motion.time().period + 1, 0.0}, stop, [] {})) return std::nullopt;  // past what only touches
     return without_events(motion, n);
   }
   if (n == 0) return record_autonomous(motion, reader, events, motion.time().plus(patience));

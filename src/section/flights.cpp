@@ -84,7 +84,7 @@ std::optional<FlightKind> next_change(Motion& motion, Stop stop) {
 
 std::optional<Flight> next_flight(Motion& motion, const std::optional<FlightKind>& kind, Stop stop) {
   std::optional<FlightKind> begun = next_change(motion, stop);
-  while (begun) {
+  for (int others = 0; begun && others < most_others; ++others) {
     Flight flight{*begun, motion, motion.time(), {}};
     begun = next_change(motion, stop);
     flight.end = motion.time();

@@ -35,8 +35,11 @@ struct Flight {
 /// stopped
 [[nodiscard]] std::optional<FlightKind> next_change(Motion& motion, Stop stop);
 
+/// Flights of other kinds after which one is no longer waited for: the motion has left it.
+constexpr int most_others = 10'000;
+
 /// Moves on to the end of the next flight of positive length that is of the kind, or of any.
-/// @returns nothing if the motion goes on in one mode, or was stopped
+/// @returns nothing if the motion goes on in one mode, has left the kind, or was stopped
 [[nodiscard]] std::optional<Flight> next_flight(Motion& motion, const std::optional<FlightKind>& kind, Stop stop);
 
 /// How many pairs a mode holds: relative velocities of contacts in stick, and of closed stops.

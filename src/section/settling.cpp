@@ -94,11 +94,15 @@ void Settling::discard(long periods) {
   if (!grows_) choose_section();
 }
 
-/// To the next return; a free motion may have none, as one that comes to rest or to other flights.
+/// To the next return. A free motion may have none, as one that comes to rest, or to other flights: it is run on.
 std::optional<PeriodEvents> Settling::run_period() {
   const Instant begin = motion_.time();
   const std::optional<Instant> end = map_->next(motion_, options_.stop);
-  if (!end) return std::nullopt;
+  if (!end) {
+    for (int k = 0; free_ && k < most_others && next_change(motion_, options_.stop); ++k)
+      translations().take_out(motion_);
+    return std::nullopt;
+  }
   const PeriodEvents events = run_counting(motion_, *end, options_.stop);
   translations().take_out(motion_);
   grows_ = grows_ || beyond_bounds(motion_);

@@ -123,5 +123,33 @@ TEST(FreeMotion, WhatTheStartOfItsOwnCycleGivesIsTheSameCycle) {
   EXPECT_NEAR(again.period, first.period, 1e-11 * first.period);
 }
 
+/// A self-excited machine rattles at first, and then never again, while other events go on: its section of rattling
+/// flights is left. To wait for the next one would take for ever.
+TEST(FreeMotion, FlightsThatDoNotComeAgainAreNotWaitedFor) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\n[[coordinate]]\nname = 'x1'\nmass = 1.930731669885431\n[[coordinate]]\nname = 'x2'\n"
+      "mass = 2.871651280982863\n[[coordinate]]\nname = 'x3'\nmass = 1.5676844907811835\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 2.9001421323735324\n"
+      "[[spring]]\nbetween = ['x2', 'x1']\nstiffness = 1.2493427574673333\n"
+      "[[spring]]\nbetween = ['x3', 'x2']\nstiffness = 0.39568914643436087\n"
+      "[[damper]]\nname = 'bent'\nbetween = ['x1', 'x2']\nslope_below = 0.02443942111136736\n"
+      "slope_above = 0.31002088302908515\ncharacteristic = [[-0.38586943076475355, 0.014937698100133179], "
+      "[-0.10577100245189425, -0.098870939172618], [0.10583268025240697, -0.2826347011453787]]\n"
+      "[[jenkins]]\nname = 'joint'\nbetween = ['x2', 'ground']\nstiffness = 1.5197416606626448\n"
+      "limit = 1.126874574027191\n"
+      "[[compliant_stop]]\nname = 'stop'\nbetween = ['x3', 'x1']\ntwo_sided = true\nclearance = 1.950200344485567\n"
+      "clearance_lower = 1.3219607127896513\nstiffness = 2.351074722403058\ndamping = 0.4021584752118968\nlaw = "
+      "'pulls'\n"
+      "[start]\nx1 = -1.4625430235503951\nv1 = 0.6471045636640735\nx2 = 1.3897349477489307\nv2 = 0.8274456085504798\n"
+      "x3 = 0.7285033009517554\nv3 = 0.7298367551507685\n",
+      "m.toml");
+  for (const int transient : {1, 50, 500}) {
+    const Classification found =
+        classify(System(definition.build()), definition.start(), {.transient_periods = transient});
+    EXPECT_EQ(found.label, "free-0-I") << transient;
+    EXPECT_EQ(found.attractor, Attractor::family) << transient;
+  }
+}
+
 }  // namespace
 }  // namespace slapstick

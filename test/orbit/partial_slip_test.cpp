@@ -254,5 +254,19 @@ TEST(PartialSlip, OfAMachineAtRestIsAFamilyOfWhatIsHeldAlone) {
   EXPECT_EQ(classify(System(definition.build()), definition.start()).family, 1);
 }
 
+/// A body that friction holds, and another one that has come to rest beside it: their states are rounding apart.
+TEST(PartialSlip, OfAMachineThatAForceDoesNotMoveIsFound) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 1.4\n[[coordinate]]\nname = 'x1'\nmass = 1.85\n[[coordinate]]\nname = 'x2'\nmass = 1.5\n"
+      "[[force]]\non = 'x2'\namplitude = -0.2\nharmonic = 0\n[[force]]\non = 'x1'\namplitude = 0.1\n"
+      "[[spring]]\nbetween = ['x1', 'ground']\nstiffness = 1.575\n[[spring]]\nbetween = ['x2', 'x1']\nstiffness = 1\n"
+      "[[damper]]\nbetween = ['x2', 'x1']\ncoefficient = 0.14\n"
+      "[[friction]]\nname = 'pad'\nbetween = ['x1', 'ground']\nstatic = 0.5\n[start]\nv1 = 1\n",
+      "m.toml");
+  const auto found = settled(definition, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->family, 1);
+}
+
 }  // namespace
 }  // namespace slapstick::test

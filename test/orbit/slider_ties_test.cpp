@@ -5,6 +5,7 @@
 
 #include "followed.hpp"
 #include "slapstick/attractor/classify.hpp"
+#include "slapstick/attractor/lyapunov.hpp"
 
 namespace slapstick::test {
 namespace {
@@ -82,6 +83,30 @@ TEST(SliderTies, LeaveTheMultipliersOfEqualMachinesThoseOfOne) {
   }
 }
 
+/// .. and so are Lyapunov exponents, for which tangents are made anew on the way.
+TEST(SliderTies, LeaveTheExponentsOfEqualMachinesThoseOfOne) {
+  const ModelDefinition single = Row{.bodies = 1}.definition(), many = Row{.bodies = 7, .coupling = 0.0}.definition();
+  const LyapunovOptions options{.transient_periods = 100, .most_periods = 50};
+  const double one = lyapunov(System(single.build()), single.start(), options).per_period[0];
+  const LyapunovExponents all = lyapunov(System(many.build()), many.start(), options);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(all.per_period[i], one, 1e-9) << i;
+}
+
+/// The window of a mode does not shrink with the number of sliders that slip in it: nothing depends on where they are.
+TEST(SliderTies, OfManyParallelSlidersCostNoShorterWindows) {
+  const auto joint = [](int sliders) {
+    std::string text =
+        "name = 'joint'\nomega = 1.3\n[[coordinate]]\nname = 'x'\nmass = 1\n[[force]]\non = 'x'\n"
+        "amplitude = 1\n" +
+        link("spring", "x", "stiffness = 1") + link("damper", "x", "coefficient = 0.2");
+    for (int i = 0; i < sliders; ++i) text += slider("e" + std::to_string(i), "x", 1.0 / sliders, 0.3 / sliders);
+    return ModelDefinition::parse(text, "joint.toml");
+  };
+  const System one(joint(1).build()), many(joint(25).build());
+  EXPECT_LT(many.windows_per_period(), 2.0 * one.windows_per_period());
+  EXPECT_EQ(classify(many, joint(25).start()).label, classify(one, joint(1).start()).label);
+}
+
 /// A small swing closes where it began, and two sliders that turned there together begin to slip at one instant again.
 /// Which of them a search sees first is rounding, and may be another one in the next cycle.
 TEST(SliderTies, HaveOneOrderInAllCycles) {
@@ -121,6 +146,24 @@ TEST(SliderTies, SliderThatWasDrawnToItsLimitRestsThere) {
     ASSERT_TRUE(found) << held;
     EXPECT_EQ(found->label, seen.label);
   }
+}
+
+/// .. also where nothing else happens in the cycle.
+TEST(SliderTies, OrbitOfASliderThatOnlyTouchesItsLimitIsFound) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 0.5623\n[[coordinate]]\nname = 'x'\nmass = 0.5705\n[[force]]\non = 'x'\namplitude = 0.742\n"
+      "[[force]]\non = 'x'\namplitude = 0.3655\nharmonic = 2\nphase = 4.576\n[[force]]\non = 'x'\namplitude = 0.7297\n"
+      "harmonic = 0\n" +
+          link("spring", "x", "stiffness = 1.207") + link("damper", "x", "coefficient = 0.2715") +
+          slider("j", "x", 0.5, 0.4),
+      "m.toml");
+  const auto found = settled(definition, {});
+  const Classification seen = classify(System(definition.build()), definition.start());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->family, seen.family);
+  ASSERT_EQ(found->multipliers.size(), seen.multipliers.size());
+  for (std::size_t i = 0; i < seen.multipliers.size(); ++i)
+    EXPECT_LT(std::abs(found->multipliers[i] - seen.multipliers[i]), 1e-8) << i;
 }
 
 }  // namespace

@@ -56,7 +56,12 @@ class CurveWalk {
   [[nodiscard]] std::array<double, 2> ranges() const {
     return {options_.to - options_.from, options_.second_to - options_.second_from};
   }
-  static bool straight(double cosine) { return cosine >= 0.9; }
+  static bool straight(double cosine) {
+    // An angle of 26 degrees: the next place of a smooth curve is within it at some length of the step. A smaller
+    // cosine might go over to a neighbouring curve, a larger one takes more steps.
+    constexpr double least_cosine = 0.9;
+    return cosine >= least_cosine;
+  }
   /// The zero of a function between two places, at which its signs differ.
   [[nodiscard]] std::optional<Place> located(const Place& before, const Place& now, double length,
                                              const std::function<double(const Place&)>& value) const;

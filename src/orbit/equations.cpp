@@ -133,7 +133,9 @@ void move(const Problem& problem, const Linearised& at, const VectorXd& change, 
 }
 
 bool at_rest(double velocity, double displacement, double cycle) {
-  constexpr double rounding = 0x1p-40;  // of the displacement
+  // Of the displacement: some thousand roundings, which gather in a cycle. More would take a slow creep for rest, less
+  // would measure an orbit at rest by its rounding.
+  constexpr double rounding = 0x1p-40;
   return velocity * cycle <= rounding * displacement;
 }
 

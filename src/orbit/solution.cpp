@@ -112,15 +112,26 @@ std::vector<std::complex<double>> multipliers(const Problem& problem, const Mode
   return all;
 }
 
+namespace {
+
+std::vector<std::complex<double>> across(const Solution& solution) {
+  std::vector<std::complex<double>> others = solution.multipliers;
+  for (int along = 0; along < solution.family; ++along) drop_kept_direction(others);
+  return others;
+}
+
+}  // namespace
+
 double Solution::largest_across() const {
-  std::vector<std::complex<double>> others = multipliers;
-  for (int along = 0; along < family; ++along) drop_kept_direction(others);
   double largest = 0.0;
-  for (const auto& mu : others) largest = std::max(largest, std::abs(mu));
+  for (const auto& mu : across(*this)) largest = std::max(largest, std::abs(mu));
   return largest;
 }
 
-bool Solution::stable() const { return differentiable(orbit.shape) && largest_across() < 1.0; }
+/// A multiplier that is no number is not inside the unit circle.
+bool Solution::stable() const {
+  return differentiable(orbit.shape) && ranges::all_of(across(*this), [](auto mu) { return std::abs(mu) < 1.0; });
+}
 
 std::shared_ptr<const Problem> pose(const Family& family, const std::vector<double>& values) {
   return std::make_shared<const Problem>(family, values);

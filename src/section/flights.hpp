@@ -35,7 +35,8 @@ struct Flight {
 /// stopped
 [[nodiscard]] std::optional<FlightKind> next_change(Motion& motion, Stop stop);
 
-/// Flights of other kinds after which one is no longer waited for: the motion has left it.
+/// Flights of other kinds after which one is no longer waited for: the motion has left it. With fewer a kind that comes
+/// rarely would be given up, with more a motion that has left it is flown in vain for more than a second.
 constexpr int most_others = 10'000;
 
 /// Moves on to the end of the next flight of positive length that is of the kind, or of any.

@@ -56,10 +56,13 @@ class Engine : public Flight {
   void look_ahead();
   void begin_segment();
   void handle(int guard, bool graze);
+  void make_exact(const mode::Guard& hit);
   void set_velocity_zero(const mode::ContactRow& contact);
   void set_gap_zero(const mode::ContactRow& contact);
   void set_force_zero(int compliant);
   void gather_ties(int guard);
+  void leave_touched_limits();
+  [[nodiscard]] bool only_touches(int guard, double rounding) const;
   [[nodiscard]] bool turns_with(const mode::Guard& corner, const mode::Guard& slip) const;
   [[nodiscard]] int of_pair(int guard) const;
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
@@ -76,7 +79,7 @@ class Engine : public Flight {
   void compliant_limit(int compliant, mode::GuardKind kind);
   [[nodiscard]] int stop_touched_at_rest(int friction) const;
   void force_limit(int guard, int contact, bool graze);
-  void set_crossing_guard_zero(const mode::Guard& guard);
+  void set_crossing_guard(const mode::Guard& guard, double value);
   void set_holding_guard_zero(const mode::Guard& guard);
   void cross(int guard, bool graze);
   void touch(int stop, bool graze);
@@ -92,6 +95,7 @@ class Engine : public Flight {
   }
   void choose_next_mode(Cause cause, std::optional<ReportedEvent> reported = {});
   void postpone_release(double flown);
+  void go_on();
   void report_changes(Cause cause, const std::optional<ReportedEvent>& reported, const mode::ContactStates& old);
   [[nodiscard]] double speed_of(EventKind kind, int contact) const;
   [[nodiscard]] double value_of(const mode::RowVector& row) const;

@@ -27,20 +27,21 @@ bool of_holding(GuardKind kind) {
 
 void Engine::handle(int guard, bool graze) {
   guard = of_pair(guard);
-  const mode::Guard& hit = here_->guards()[guard];
   hits_.push_back(guard);
-  const mode::Frame& frame = system_->frame();
-  if (hit.kind == GuardKind::gap) set_gap_zero(frame.stops[hit.contact]);  // so that x- can be started from
-  if (of_crossing(hit.kind)) set_crossing_guard_zero(hit);
-  if (of_holding(hit.kind)) set_holding_guard_zero(hit);
+  make_exact(here_->guards()[guard]);
   X_before_ = X_;
   gather_ties(guard);
+  leave_touched_limits();
+  if (hits_.empty()) return go_on();
+  graze = graze && guard == hits_.front();
+  guard = hits_.front();
+  const mode::Guard& hit = here_->guards()[guard];
   switch (hit.kind) {
     case GuardKind::gap:
       return touch(hit.contact, graze);
     case GuardKind::slip:
       if (const int stop = stop_touched_at_rest(hit.contact); stop >= 0) return touch(stop, true);
-      set_velocity_zero(frame.frictions[hit.contact]);
+      set_velocity_zero(system_->frame().frictions[hit.contact]);
       return choose_next_mode(Cause::reversal);
     case GuardKind::stick_above:
     case GuardKind::stick_below:
@@ -60,6 +61,13 @@ void Engine::handle(int guard, bool graze) {
     case GuardKind::beyond:
       return cross(guard, graze);
   }
+}
+
+/// The guard's zero, in the state just before, which can be started from.
+void Engine::make_exact(const mode::Guard& hit) {
+  if (hit.kind == GuardKind::gap) set_gap_zero(system_->frame().stops[hit.contact]);
+  if (of_crossing(hit.kind)) set_crossing_guard(hit, 0.0);
+  if (of_holding(hit.kind)) set_holding_guard_zero(hit);
 }
 
 /// A holding force has reached its limit: release. A force that only touches its limit holds on (|f0| <= f_s is stick):
@@ -158,6 +166,17 @@ void Engine::choose_next_mode(Cause cause, std::optional<ReportedEvent> reported
 void Engine::postpone_release(double flown) {
   at_instant_.held = true;
   hits_.clear();
+  spend_budget();
+  segment_begun_ -= flown;
+}
+
+/// The segment goes on in its mode.
+void Engine::go_on() {
+  const double flown = elapsed_;
+  note_magnitude(X_);
+  for (int g = 0; g < here_->guard_count(); ++g) orders_[g] = start_order(*here_, g, X_.data(), magnitude_.data());
+  chatter_stop_ = -1;
+  begin_flight();
   spend_budget();
   segment_begun_ -= flown;
 }

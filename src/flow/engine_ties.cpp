@@ -1,8 +1,10 @@
 /// What is zero at the instant of an event, together with what ended the flight, and is made exactly so.
+#include <algorithm>
 #include <cmath>
 
 #include "flow/engine.hpp"
 #include "flow/impact_law.hpp"
+#include "flow/mode_graph.hpp"
 
 namespace slapstick::flow {
 
@@ -10,8 +12,8 @@ using mode::GuardKind;
 
 /// Is it the end of a slider's slip, by the velocity that is zero at the other guard?
 bool Engine::turns_with(const mode::Guard& corner, const mode::Guard& slip) const {
-  if (!of_corner(corner.kind) || slip.kind != GuardKind::slip) return false;
-  const mode::SliderRow* slider = system_->frame().slider(corner.contact);
+  if (slip.kind != GuardKind::slip) return false;
+  const mode::SliderRow* slider = system_->frame().slider(corner.kind, corner.contact);
   return slider != nullptr && !slider->rests(here_->states().pieces) &&
          system_->frame().in_step(system_->frame().frictions[slip.contact].own, slider->pair.own);
 }
@@ -46,10 +48,37 @@ void Engine::gather_ties(int guard) {
     else if (guards[g].kind == GuardKind::slip)
       set_velocity_zero(frame.frictions[contact]);
     else if (of_corner(guards[g].kind))
-      set_crossing_guard_zero(guards[g]);
+      set_crossing_guard(guards[g], 0.0);
     else
       set_gap_zero(frame.compliant[contact]);
     hits_.push_back(g);
+  }
+}
+
+/// Is a slider just at its limit as its pair turns back? From the guard's zero on a_1 x + a_2 x^2 falls by no more than
+/// rounding before it rises again. One that has come to rest there at this very instant is not asked.
+bool Engine::only_touches(int guard, double rounding) const {
+  const mode::Guard& limit = here_->guards()[guard];
+  const mode::SliderRow* slider = system_->frame().slider(limit.kind, limit.contact);
+  if (slider == nullptr || !slider->rests(here_->states().pieces)) return false;
+  if (place_.windows == 0 && !place_.moved && orders_[guard] > 0) return false;
+  event::Lane8 taylor, noise;
+  here_->leading(guard, X_.data(), magnitude_.data(), taylor, noise);
+  return taylor[1] >= 0.0 || (taylor[2] > 0.0 && taylor[1] * taylor[1] <= 4.0 * taylor[2] * rounding);
+}
+
+/// A motion that settles may draw a slider along until the slider is just not drawn any more. The limit would be
+/// touched in each cycle, and rounding would say each time whether the slider slips. So a slider that only touches is
+/// drawn further, clear of what the search of roots and the choice of the mode take for zero; and a touch is no event.
+void Engine::leave_touched_limits() {
+  constexpr double clear = 4.0;  // roundings; the choice of the mode looks at two on each side
+  for (std::size_t k = hits_.size(); k > 0; --k) {
+    const int g = hits_[k - 1];
+    const mode::Guard& limit = here_->guards()[g];
+    const double rounding = std::max(noise_of(g, arrived_x_), rounding_of(*here_, limit, magnitude_.data()));
+    if (!only_touches(g, rounding)) continue;
+    set_crossing_guard(limit, clear * rounding);
+    hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k) - 1);
   }
 }
 
@@ -95,10 +124,10 @@ void Engine::set_force_zero(int compliant) {
   }
 }
 
-/// Moves the largest term so that the displacement (velocity) of a characteristic lies on its corner, or a force is
-/// zero, up to the rounding of a sum. The term is not zero, and not of a pair that is held: a displacement of a pair at
-/// a closed stop would open the stop by its rounding.
-void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
+/// Moves the largest term so that the guard has a value, up to the rounding of a sum: the displacement (velocity) of a
+/// characteristic lies on its corner, or a force is zero. The term is not zero, and not of a pair that is held: a
+/// displacement of a pair at a closed stop would open the stop by its rounding.
+void Engine::set_crossing_guard(const mode::Guard& guard, double value) {
   const int d = system_->frame().d;
   const mode::Guard::Entry* most = nullptr;
   for (const mode::Guard::Entry& entry : guard.entries) {
@@ -112,7 +141,7 @@ void Engine::set_crossing_guard_zero(const mode::Guard& guard) {
   }
   if (most == nullptr) return;
   const int own = most->column % d;
-  X_.data()[most->column] -= guard.at(X_.data()) / most->value;
+  X_.data()[most->column] -= (guard.at(X_.data()) - value) / most->value;
   most->column < d ? system_->frame().match_displacements(own, X_.data())
                    : system_->frame().match_velocities(own, X_.data());
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/floating_point.hpp"
-#include "base/repeated_difference.hpp"
 #include "base/text.hpp"
 #include "flow/mode_graph.hpp"
 #include "slapstick/base/error.hpp"
@@ -68,9 +67,16 @@ std::span<const double> Flight::extended_within(double s) const {
   const IeeeArithmetic ieee;
   const mode::Frame& frame = system_->frame();
   double* X = stepped_to(s);
-  std::copy(X_segment_.data() + 2 * frame.d, X_segment_.data() + frame.size(), X + 2 * frame.d);  // the slopes
-  frame.set_clock_within(segment_start_.plus(s / system_->period()), X);
+  set_clock_in_segment(s / system_->period(), X);
   return {X, static_cast<std::size_t>(frame.size())};
+}
+
+/// Writes what moves by the clock into X.
+/// @param periods  from the start of the last segment
+void Flight::set_clock_in_segment(double periods, double* X) const {
+  const mode::Frame& frame = system_->frame();
+  std::copy(X_segment_.data() + 2 * frame.d, X_segment_.data() + frame.size(), X + 2 * frame.d);  // the slopes
+  frame.set_clock_within(segment_start_.plus(periods), X);
 }
 
 /// p and u, by steps from the start of the last segment; what moves by the clock is left as it was.
@@ -79,7 +85,8 @@ double* Flight::stepped_to(double s) const {
   const int m = system_->frame().size();
   double* X = sample_.data();
   double* at = X + m;
-  const std::int64_t windows = subtract_repeatedly(s, mode.window());
+  const double H = mode.window_in_periods(), gone = s / system_->period() / H;  // in windows
+  const auto windows = static_cast<std::int64_t>(gone);
   if (sample_at_ < 0 || sample_at_ > windows) {
     std::copy_n(X_segment_.data(), m, X);
     sample_at_ = 0;
@@ -87,8 +94,10 @@ double* Flight::stepped_to(double s) const {
   for (; sample_at_ < windows; ++sample_at_, ++sampled_windows_) {
     mode.step(X, sample_out_.data());
     std::copy_n(reinterpret_cast<const double*>(sample_out_.data()), m, X);
+    const std::int64_t passed = sample_at_ + 1;
+    if (passed % windows_per_start == 0) set_clock_in_segment(static_cast<double>(passed) * H, X);
   }
-  mode.state_at(s / mode.window(), X, at);
+  mode.state_at(gone - static_cast<double>(windows), X, at);
   return at;
 }
 
@@ -238,7 +247,7 @@ void Flight::restart_window(double x) {
 bool Flight::within_noise(int guard, double x) const {
   const mode::Guard& h = here_->guards()[guard];
   const int order = orders_[guard];
-  const bool slider = mode::of_corner(h.kind) && system_->frame().slider(h.contact) != nullptr;
+  const bool slider = system_->frame().slider(h.kind, h.contact) != nullptr;
   const bool force = h.kind != mode::GuardKind::gap && h.kind != mode::GuardKind::slip &&
                      h.kind != mode::GuardKind::engage && h.kind != mode::GuardKind::leave && !slider;
   if (force || order < 0 || order == never) return false;
@@ -247,15 +256,20 @@ bool Flight::within_noise(int guard, double x) const {
                        : slider                          ? h.at(X_.data())
                                                          : depth(*system_, h.contact, X_.data());
   if (std::abs(value) > 0x1p-30 * size_) return false;
+  // Neither the event's place in the flight nor the clock is sharper than some roundings.
+  const double instant = 0x1p-50 * (elapsed_ + system_->period());
+  return std::abs(value) <= noise_of(guard, x) + instant * std::abs(rate(h));
+}
+
+/// A bound of a guard's rounding at x of the window.
+double Flight::noise_of(int guard, double x) const {
   event::Hull hull;
   (void)enclose(guard, hull);
   const double noise =
       hull.bounds[event::noise_0] + x * (hull.bounds[event::noise_1] + x * hull.bounds[event::noise_2]);
   double lift = 1.0;  // x^order
-  for (int p = 0; p < order; ++p) lift *= x;
-  // Neither the event's place in the flight nor the clock is sharper than some roundings.
-  const double instant = 0x1p-50 * (elapsed_ + system_->period());
-  return std::abs(value) <= lift * noise + instant * std::abs(rate(h));
+  for (int p = 0; p < orders_[guard]; ++p) lift *= x;
+  return lift * noise;
 }
 
 /// The rate of a guard in the state now.
@@ -290,11 +304,10 @@ void Flight::sharpen_window() {
 }
 
 /// Counts the flight from x of its present window on, where the state is X. The clock sets the phase, which steps from
-/// window to window would lose digit by digit: it counts windows exactly.
+/// window to window would lose digit by digit: it counts windows exactly. So would the segment's length.
 void Flight::move_start(double x, Extended& X) {
-  const mode::Mode& mode = *here_;
-  segment_begun_ -= place_.elapsed(mode.window()) + x * mode.window();
   place_ = {.start = instant(x), .moved = true};
+  segment_begun_ = segment_start_.since(place_.start) * system_->period();
   system_->frame().set_clock(place_.start, X.data());
 }
 

@@ -95,6 +95,7 @@ class Flight {
   void look(double x);
   void arrive(double x);
   [[nodiscard]] bool within_noise(int guard, double x) const;
+  [[nodiscard]] double noise_of(int guard, double x) const;
   void note_magnitude(Extended& X);
   /// From the slopes of the signals in X_: after a start and behind a knot.
   void note_clock_sizes();
@@ -130,6 +131,7 @@ class Flight {
   [[nodiscard]] bool in_doubt(const Found& found) const;
   [[nodiscard]] double rate(const mode::Guard& guard) const;
   [[nodiscard]] double* stepped_to(double s) const;
+  void set_clock_in_segment(double periods, double* X) const;
 
   FlightOrigin origin_;
   double size_ = 0.0;  ///< the sum of magnitude_

@@ -101,7 +101,7 @@ Division::Division(const Engine& engine, bool backward)
 void Division::drop_touches() {
   const auto touches = [&](int g) {
     const Guard& own = before_.guards()[g];
-    return mode::of_corner(own.kind) && frame_.slider(own.contact) != nullptr && !changed(own);
+    return frame_.slider(own.kind, own.contact) != nullptr && !changed(own);
   };
   for (std::size_t k = hits_.size(); k > 1; --k)
     if (touches(hits_[k - 1])) hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k) - 1);

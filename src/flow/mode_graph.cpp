@@ -140,11 +140,15 @@ int far_order(const mode::Mode& mode, const mode::Guard& h, const double* X, con
 
 }  // namespace
 
+double rounding_of(const mode::Mode& mode, const mode::Guard& guard, const double* magnitude) {
+  return rest_factor * mode.noise_factor() * guard.size(magnitude);
+}
+
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
   const mode::Guard& h = mode.guards()[guard];
   if (known == 0) {
     const double value = h.single >= 0 ? h.factor * X[h.single] : h.at(X);
-    const double bound = h.single >= 0 ? 0.0 : rest_factor * mode.noise_factor() * h.size(magnitude);
+    const double bound = h.single >= 0 ? 0.0 : rounding_of(mode, h, magnitude);
     if (value > bound) return 0;
     if (value < -bound) return negative;
     const double rate = value == 0.0 && h.rate >= 0 ? h.factor * X[h.rate] : 0.0;

@@ -41,6 +41,9 @@ namespace slapstick::flow {
 /// of h than that it is zero; `negative` if h starts downwards.
 inline constexpr int never = event::terms;
 inline constexpr int negative = -1;
+/// So much of a guard's value may be rounding.
+double rounding_of(const mode::Mode& mode, const mode::Guard& guard, const double* magnitude);
+
 /// @param known derivatives below this order are known to vanish, whatever their stored values say (after a graze: 2).
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known = 0);
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "mode/drive.hpp"
+#include "slapstick/mode/contact_states.hpp"
 #include "slapstick/model/model.hpp"
 
 namespace slapstick::mode {
@@ -153,6 +154,10 @@ struct Frame {
   void set_inner_rates(double* X) const;
   /// The slider that a characteristic is over, or null.
   [[nodiscard]] const SliderRow* slider(int characteristic) const;
+  /// The slider whose limit a guard is, or null.
+  [[nodiscard]] const SliderRow* slider(GuardKind kind, int contact) const {
+    return of_corner(kind) ? slider(contact) : nullptr;
+  }
   /// Is u_i no number of its own, but follows from others?
   [[nodiscard]] bool rate_follows(int i) const;
   /// Sets the rates of sliders in a mode of these pieces.

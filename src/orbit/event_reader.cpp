@@ -80,13 +80,11 @@ std::vector<Leg> ends_at_knots(const flow::Engine& engine, Leg leg) {
   return all;
 }
 
-/// Is it a limit of what rests, a slider or a body that friction holds? Where a motion settles it may have drawn such
-/// a one along until it is just not drawn along any more: it touches its limit in each cycle, and rests on.
-bool rests(const flow::CompiledSystem& system, const mode::Guard& guard, const mode::ContactStates& states) {
-  if (guard.kind == mode::GuardKind::stick_above || guard.kind == mode::GuardKind::stick_below)
-    return may_be_drawn_along(system.model().frictions[static_cast<std::size_t>(guard.contact)]);
-  const mode::SliderRow* slider = mode::of_corner(guard.kind) ? system.frame().slider(guard.contact) : nullptr;
-  return slider != nullptr && slider->rests(states.pieces);
+/// Is it a limit of a body that friction holds? Where a motion settles it may have drawn such a one along until it is
+/// just not drawn along any more: it touches its limit in each cycle, and rests on.
+bool may_rest(const flow::CompiledSystem& system, const mode::Guard& guard) {
+  const bool holds = guard.kind == mode::GuardKind::stick_above || guard.kind == mode::GuardKind::stick_below;
+  return holds && may_be_drawn_along(system.model().frictions[static_cast<std::size_t>(guard.contact)]);
 }
 
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
@@ -127,7 +125,7 @@ void EventReader::read() {
     return;
   }
   const mode::Guard* hit = engine.hit_guard();
-  if (hit != nullptr && leg.event == EventKind::graze && rests(system, *hit, leg.states)) return;
+  if (hit != nullptr && leg.event == EventKind::graze && may_rest(system, *hit)) return;
   touched_ = hit == nullptr || leg.event == EventKind::graze;
   // A force that has come to zero up to rounding may come to zero again: what changes no mode is no event.
   if (touched_ || (motion_.segment().mode == motion_.mode_id() && motion_.strikes().empty())) return;

@@ -66,7 +66,7 @@ void demand_off_limits(const Problem& problem, const ModeSet& set, const Orbit& 
   constexpr double rounding = 1e-12;
   if (kept.empty()) return;
   for (const TestValue& test : test_values(set, orbit)) {
-    const mode::SliderRow* slider = mode::of_corner(test.kind) ? set.frame().slider(test.contact) : nullptr;
+    const mode::SliderRow* slider = set.frame().slider(test.kind, test.contact);
     if (slider == nullptr || !keeps(problem, kept, slider->own)) continue;
     if (test.value <= rounding * (slider->high - slider->low))
       throw NumericalError("the orbit has no derivative by a parameter: the slider of " +

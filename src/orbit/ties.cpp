@@ -13,7 +13,7 @@ bool has_length(const Orbit& orbit, std::size_t leg, double rounding) {
 
 /// Does a slider begin or cease to slip at the end of a leg? Each moves itself only.
 bool of_slider(const mode::Frame& frame, const Leg& leg) {
-  return leg.ending == Ending::guard && mode::of_corner(leg.kind) && frame.slider(leg.contact) != nullptr;
+  return leg.ending == Ending::guard && frame.slider(leg.kind, leg.contact) != nullptr;
 }
 
 }  // namespace

@@ -107,7 +107,9 @@ class Beside {
 
   [[nodiscard]] Index size() const { return sizes_.size(); }
   [[nodiscard]] Index nulls() const { return nulls_; }
-  [[nodiscard]] VectorXd direction(Index k) const { return by_.right.col(k); }
+  [[nodiscard]] VectorXd direction(Index k) const { return by_.right.rightCols(nulls_).col(k); }
+  /// The part of a point that is in the null directions.
+  [[nodiscard]] VectorXd part(const VectorXd& y) const { return by_.right.rightCols(nulls_).transpose() * y; }
   [[nodiscard]] VectorXd state(const VectorXd& y) const { return x_ + map_.translations().representative(move(y)); }
 
   /// By how much the point at y misses its return.
@@ -121,6 +123,16 @@ class Beside {
     const Index regular = by_.values.size() - nulls_;
     return by_.right.leftCols(regular) *
            (by_.left.leftCols(regular).transpose() * residual).cwiseQuotient(by_.values.head(regular));
+  }
+
+  /// By how much the map itself moves a point in the null directions, as a slider that is drawn to its limit.
+  /// Not at all where the multiplier 1 has fewer eigenvectors than its multiplicity.
+  [[nodiscard]] VectorXd drawn(const VectorXd& residual) const {
+    const auto right = by_.right.rightCols(nulls_), left = by_.left.rightCols(nulls_);
+    constexpr double defective = 1e-6;  // as `null`
+    const MatrixXd across = left.transpose() * right;
+    if (dense::reciprocal_condition(across) < defective) return VectorXd::Zero(residual.size());
+    return right * dense::solve(across, left.transpose() * residual);
   }
 
  private:
@@ -140,30 +152,40 @@ class Beside {
 
 }  // namespace
 
+/// At the end of a family, as where several sliders just touch their limits, the members beside x are a cone: motions
+/// beside x are drawn to members that span it.
 int family(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {
-  constexpr double aside = 1e-3;   // of the motion's size
-  constexpr double closed = 1e-9;  // a fold leaves a residual of the order of aside^2
-  constexpr int most_steps = 8;    // of a linear part that is another one at the end of a continuum; two where not
+  constexpr double aside = 1e-3;        // of the motion's size
+  constexpr double closed = 1e-9;       // a fold leaves a residual of the order of aside^2
+  constexpr double elsewhere = 0.01;    // of the way aside: of what is drawn nearer to x the linear part says nothing
+  constexpr double independent = 0.01;  // singular values of directions; a narrower cone has fewer dimensions
+  constexpr int most_steps = 40;        // of a linear part that is another one at the end of a family; two where not
   const Beside beside(map, x, n, scale, stop);
-  int dimensions = 0;
-  for (Index k = beside.size() - beside.nulls(); k < beside.size(); ++k) {
-    const auto has_member = [&](double move) {
-      VectorXd y = move * beside.direction(k);
-      try {
-        for (int step = 0; step <= most_steps; ++step) {
-          const VectorXd residual = beside.residual(y);
-          if (residual.cwiseAbs().maxCoeff() < closed) return true;
-          y -= beside.least_move(residual);
-        }
-      } catch (const InputError&) {  // behind a stop
-      } catch (const NumericalError&) {
+  const auto member = [&](VectorXd y) -> VectorXd {
+    try {
+      for (int step = 0; step <= most_steps && !stopped(stop); ++step) {
+        const VectorXd residual = beside.residual(y);
+        if (residual.cwiseAbs().maxCoeff() < closed) return beside.part(y);
+        y += beside.drawn(residual) - beside.least_move(residual);
       }
-      return false;
-    };
-    const auto has_members = [&](double move) { return has_member(move) && has_member(0.5 * move); };
-    if (has_members(aside) || has_members(-aside)) ++dimensions;
+    } catch (const InputError&) {  // behind a stop
+    } catch (const NumericalError&) {
+    }
+    return VectorXd::Zero(beside.nulls());
+  };
+  MatrixXd directions(beside.nulls(), 0);
+  Index dimensions = 0;
+  for (const double way : {aside, -aside}) {
+    for (Index k = 0; k < beside.nulls() && dimensions < beside.nulls(); ++k) {
+      const VectorXd found = member(way * beside.direction(k));
+      if (found.norm() < elsewhere * aside || member(0.5 * way * beside.direction(k)).norm() < 0.5 * elsewhere * aside)
+        continue;
+      directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
+      directions.rightCols(1) = found.normalized();
+      dimensions = (dense::singular_vectors(directions).values.array() > independent).count();
+    }
   }
-  return stopped(stop) ? 0 : dimensions;
+  return stopped(stop) ? 0 : static_cast<int>(dimensions);
 }
 
 VectorXd nearest_fixed_point(const ReturnMap& map, const VectorXd& x, int n, const VectorXd& scale, Stop stop) {

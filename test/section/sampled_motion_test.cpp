@@ -49,6 +49,23 @@ TEST(SampledMotion, SamplesOfABallAreItsParabolas) {
   EXPECT_EQ(samples, 20 * 16 + 1) << "both ends are sampled";
 }
 
+/// Neither the place of a sample in a flight without an event nor the forcing's phase there is summed up.
+TEST(SampledMotion, SamplesOfALongFlightAreTheMotion) {
+  Model model;
+  model.name = "linear";
+  model.omega = 0.5623;
+  model.coordinates = {{"x", 0.5705}};
+  model.springs = {{0, ground, 1.207}};
+  model.dampers = {{0, ground, 0.2715}};
+  model.forces = {{0, 1, 0.742, 0.0}};
+  const System system(model);
+  SampledMotion run(Motion(system, {0.0, 0.0}), 1);
+  while (run.next({3000, 0.0}) != SampledMotion::Item::end) continue;
+  State there(2);
+  run.motion().state(there);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(run.sample().state[i], there[i], 1e-11) << i;
+}
+
 TEST(SampledMotion, SampleAtTheInstantOfAnEventComesBeforeIt) {
   const System system(ball(0.5));
   SampledMotion run(Motion(system, {0.5, 0.0}), 1);

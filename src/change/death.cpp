@@ -128,17 +128,29 @@ std::optional<LocatedDeath> death_ahead(const Problem& problem, const PathPoint&
   return death_near(problem, orbit, dying);
 }
 
+namespace {
+
+/// .. of the legs of which less than a part of their length is left.
 std::optional<LocatedDeath> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
-                                     const TestValue& test) {
+                                     const TestValue& test, double part) {
   const std::size_t legs = change.legs();
-  std::vector<bool> dying = dead_legs(from.orbit, change);
+  std::vector<bool> dying = dead_legs(from.orbit, change, part);
   if (test.test == Test::speed && test.kind == mode::GuardKind::gap) {  // a slip may die with its speed, at any length
     const ModeSet set(problem.family(), change.values);
     for (std::size_t i = 0; i < legs; ++i) dying[i] = dying[i] || slip_dies(set, from.orbit, change, i, test.leg);
   }
   const std::size_t before = (test.leg + legs - 1) % legs, behind = (test.leg + 1) % legs;
-  if (!dying[test.leg] && !dying[before] && !dying[behind]) return std::nullopt;
+  const std::vector<bool> at_once = with_ties(change, dying);
+  if (!at_once[test.leg] && !at_once[before] && !at_once[behind]) return std::nullopt;
   return death_near(problem, change, dying);
+}
+
+}  // namespace
+
+std::optional<LocatedDeath> death_at(const Problem& problem, const PathPoint& from, const Orbit& change,
+                                     const TestValue& test) {
+  auto found = death_at(problem, from, change, test, dead);
+  return found ? found : death_at(problem, from, change, test, hardly_left);
 }
 
 std::vector<double> death_rates(const Problem& problem, const Death& death) {

@@ -126,7 +126,9 @@ void find_met(const Problem& problem, const Orbit& before, Unfolding& found) {
 Unfolding unfold(const Problem& problem, const Orbit& before, const Change& change, const UnfoldOptions& options) {
   Unfolding found;
   std::vector<HalfBranch>& branches = found.branches;
-  branches = find_branches_beyond(problem, before, change.at, change.test, options.range, options.stop);
+  if (change.special.death) branches = branches_at(problem, change.at, {change.special.death->orbit}, options.range);
+  if (branches.empty())
+    branches = find_branches_beyond(problem, before, change.at, change.test, options.range, options.stop);
   const auto of_family = [&](const HalfBranch& next) {
     return one_of_family(problem, change.at, next.point, options.range);
   };

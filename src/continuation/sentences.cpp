@@ -207,7 +207,7 @@ std::string what_happens(const SpecialPoint& point, const System& system) {
                   ? " (a cascade, ratio " + shown(std::round(1e4 * point.cascade_ratio) / 1e4) + ")"
                   : "");
     case Occurrence::death:
-      return "the motion dies out: " + shrinking(point.margin.leg) + " and others shrink to nothing together";
+      return shrinking(point.margin.leg) + " and others shrink to nothing together";
     case Occurrence::margin:
       break;
   }

@@ -243,7 +243,6 @@ namespace {
 double disagreement(const Candidates& candidates, const std::pair<std::size_t, Located>& chosen, const PathPoint& from,
                     double length) {
   constexpr double together = 1e-2;
-  constexpr double hardly_left = 0.1;  // of a leg that dies with another
   const Orbit& there = chosen.second.point.orbit;
   if (shrunk_legs(from.orbit, there, hardly_left) < 2) return 0.0;
   double most = 0.0;

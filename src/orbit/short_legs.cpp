@@ -50,10 +50,9 @@ int shrunk_legs(const Orbit& from, const Orbit& to, double part) {
   return count;
 }
 
-std::vector<bool> dead_legs(const Orbit& from, const Orbit& to) {
-  constexpr double dead = 1e-2;  // of a leg's length
+std::vector<bool> dead_legs(const Orbit& from, const Orbit& to, double part) {
   std::vector<bool> all;
-  for (std::size_t leg = 0; leg < to.legs(); ++leg) all.push_back(has_shrunk(from, to, leg, dead));
+  for (std::size_t leg = 0; leg < to.legs(); ++leg) all.push_back(has_shrunk(from, to, leg, part));
   return all;
 }
 

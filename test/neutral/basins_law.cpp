@@ -63,7 +63,8 @@ bool same_multipliers(const Classification& one, const Classification& other) {
 }
 
 /// What speaks against a start's basin; "" if nothing does.
-std::string against(const System& system, const Basin& basin, const State& start) {
+/// @param reached  from which all motions begin: the size of what rounding leaves of a place
+std::string against(const System& system, const Basin& basin, const State& start, const sweep::MapProblem& reached) {
   const Classification found = classify(system, start, long_search);
   if (found.attractor == Attractor::undecided) return "";
   const auto said = [&](const std::string& what) {
@@ -76,7 +77,8 @@ std::string against(const System& system, const Basin& basin, const State& start
   if (basin.by_class != by_class) return said(found.label + " that is one of a family to one verb only");
   if (by_class) return "";
   sweep::Attractors attractors(system);
-  attractors.reach(start);
+  for (std::int32_t pixel = 0; pixel < across * across; ++pixel)
+    attractors.reach(reached.start_at(reached.x_at(pixel), reached.y_at(pixel)));
   const int place = attractors.add(basin.attractor);
   if (attractors.find(found.attractor, found.label, found.state) != place)
     return said("basin of another " + found.label + " than classify's");
@@ -99,7 +101,8 @@ std::optional<std::string> basins_classify(const ModelDefinition& definition, co
       return "a start (" + shown(start[0]) + ", " + shown(start[1]) +
              ") is admissible to basins or to simulate, and not to the other";
     if (place < 0) continue;
-    if (std::string said = against(system, found.basins[static_cast<std::size_t>(place)], start); !said.empty())
+    if (std::string said = against(system, found.basins[static_cast<std::size_t>(place)], start, problem);
+        !said.empty())
       return said;
     compared = true;
   }

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "flow/compiled_system.hpp"
+#include "flow/translations.hpp"
 #include "neutral/spectrum.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/base/error.hpp"
@@ -277,7 +278,10 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
   const SpanWish wish{.transient = 100, .instead = 1};
   const auto span = find_span(definition, {}, system, definition.start(), wish);
   if (!span->cycle || !span->cycle->isolated() || !span->cycle->stable()) return std::nullopt;
-  const std::vector<Quantity> of = functions_of_time(system.model());
+  std::vector<Quantity> of = functions_of_time(system.model());
+  if (flow::translation_count(system.model(), system.compiled().frame()) >
+      0)  // of two images a cycle has either's place
+    std::erase_if(of, [](const Quantity& q) { return q.kind == Kind::displacement; });
   const Parameter& by = definition.parameters().front();
   const std::vector<Measured> rates = measure_rates(definition, {}, {by.name}, span->cycle->orbit, of);
   const Measured here = slapstick::measure(*span, of);

@@ -130,6 +130,25 @@ TEST(SliderTies, HaveOneOrderInAllCycles) {
   }
 }
 
+/// A small swing dies out: two sliders cease to turn and to slip at one instant, twice in each cycle.
+TEST(SliderTies, SmallSwingsDieOutAtOnePlaceFromEachStart) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 0.7294\n[parameters]\namplitude = 1\n[[coordinate]]\nname = 'x'\nmass = 0.935\n"
+      "[[force]]\non = 'x'\namplitude = 'amplitude'\n[[force]]\non = 'x'\namplitude = 0.8725\nharmonic = 5\n" +
+          link("spring", "x", "stiffness = 1.227") + link("damper", "x", "coefficient = 0.1045") +
+          slider("a", "x", 0.5, 0.429) + slider("b", "x", 0.5, 0.4),
+      "m.toml");
+  const orbit::Branch first = followed(definition, "amplitude", 1.0, 1.0, 2.0);
+  ASSERT_EQ(first.special.size(), 5U);
+  for (const double start : {1.0, 1.6, 2.0}) {
+    const orbit::Branch branch = followed(definition, "amplitude", start, 1.0, 2.0);
+    EXPECT_FALSE(branch.failed()) << start << ": " << orbit::ended(branch);
+    ASSERT_EQ(branch.special.size(), 5U) << start;
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(branch.special[i].value, first.special[i].value, 1e-12) << start;
+    EXPECT_EQ(branch.special[4].passage, orbit::Passage::persistence) << start;
+  }
+}
+
 /// A motion that grows draws a slider along until it is just not drawn along any more. The cycle touches the limit and
 /// is a cycle: the slider rests.
 TEST(SliderTies, SliderThatWasDrawnToItsLimitRestsThere) {

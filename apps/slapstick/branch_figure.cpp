@@ -11,6 +11,7 @@
 #include "branch_colours.hpp"
 #include "branch_table.hpp"
 #include "free_labels.hpp"
+#include "slapstick/continuation/sentences.hpp"
 #include "special_markers.hpp"
 
 namespace slapstick::app {
@@ -108,7 +109,7 @@ void add_lines(figure::Panel& panel, const orbit::Branch& branch, figure::Colour
     lines.add(here.orbit.parameter(), heights_of(here), here);
     for (; special != branch.special.end() && special->after == i; ++special) {
       const bool before = special->solution.orbit.legs() == here.orbit.legs();
-      if (goes_on(branch, *special))
+      if (orbit::goes_on(branch, *special))
         add(*special, before ? here : branch.points[i + 1]);
       else if (before && i + 1 == branch.points.size())
         add(*special, here);

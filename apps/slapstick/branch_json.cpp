@@ -9,7 +9,7 @@ Json margin_json(const orbit::UsedMargin& margin, const System& system) {
   json.set("kind", std::string(name(margin.kind))).set("leg", static_cast<long long>(margin.leg) + 1);
   if (margin.kind != orbit::UsedMargin::Kind::duration)
     json.set("guard", std::string(mode::name(margin.guard)))
-        .set("contact", system.contact_name(orbit::contact_index(margin.guard, margin.contact, system.model())));
+        .set("contact", system.contact_name(mode::contact_index(margin.guard, margin.contact, system.model())));
   return json;
 }
 

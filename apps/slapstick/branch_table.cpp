@@ -52,7 +52,8 @@ std::string words(const orbit::Branch& branch, const orbit::SpecialPoint& specia
   const orbit::NormalForm& form = special.normal_form;
   if (const std::string verdict = orbit::sentence(form); !verdict.empty()) what += ", " + verdict;
   if (form.coefficient) what += ", " + coefficient_name(special.type) + " = " + short_number(*form.coefficient);
-  if (const auto classes = classes_around(branch, special)) what += "; " + classes->first + " -> " + classes->second;
+  if (const auto classes = orbit::classes_around(branch, special))
+    what += "; " + classes->first + " -> " + classes->second;
   if (const std::string outcome = orbit::what_becomes(special); !outcome.empty()) what += "; " + outcome;
   constexpr double digits = 1e-10, share = 1e-6;  // of its value, and of the range
   if (!(special.error <= std::min(digits * std::abs(special.value), share * (in.range.to - in.range.from))))
@@ -90,29 +91,12 @@ std::string birth_line(std::size_t branch, const Birth& birth, const std::string
 
 }  // namespace
 
-bool goes_on(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
-  if (special.after + 1 >= branch.points.size()) return false;
-  if (special.passage == orbit::Passage::family)  // the branch may end in the family, or go on with what rests
-    return branch.points[special.after].family != branch.points[special.after + 1].family;
-  return orbit::goes_on(special.passage);
-}
-
-std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
-                                                                  const orbit::SpecialPoint& special) {
-  const std::string& here = branch.points[special.after].label;
-  if (goes_on(branch, special)) return std::pair(here, branch.points[special.after + 1].label);
-  const bool ends_in_another =
-      special.passage == orbit::Passage::merges || special.passage == orbit::Passage::symmetric;
-  if (!ends_in_another || !orbit::changes_events(special.type) || special.born.empty()) return std::nullopt;
-  return std::pair(here, orbit::class_name(special.born.front()));
-}
-
 bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special) {
   if (special.after != 0 || branch.points.size() < 2) return false;
   const double first = branch.points[0].orbit.parameter();
   double next = branch.points[1].orbit.parameter();
   for (const orbit::SpecialPoint& change : branch.special)  // where it may turn back
-    if (change.after == 0 && goes_on(branch, change)) next = change.value;
+    if (change.after == 0 && orbit::goes_on(branch, change)) next = change.value;
   return (special.value - first) * (next - first) < 0.0;
 }
 

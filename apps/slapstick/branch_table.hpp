@@ -45,14 +45,6 @@ struct Lineage {
 /// ", the image of branch 2 is born"
 [[nodiscard]] std::string image_words(const std::vector<std::size_t>& branches);
 
-/// Does the branch go on behind a change of events?
-[[nodiscard]] bool goes_on(const orbit::Branch& branch, const orbit::SpecialPoint& special);
-
-/// The classes before and behind a change of events: of the branch, in the order of its points, or of the orbit of
-/// another branch in which it ends.
-[[nodiscard]] std::optional<std::pair<std::string, std::string>> classes_around(const orbit::Branch& branch,
-                                                                                const orbit::SpecialPoint& special);
-
 /// Does a special point lie before the first point of its branch, which ends there?
 [[nodiscard]] bool begins_at(const orbit::Branch& branch, const orbit::SpecialPoint& special);
 

@@ -127,7 +127,7 @@ Json energy_json(const CycleEnergy& energy, const Model& model) {
 Json margins_json(const std::vector<orbit::Margin>& margins, const System& system) {
   Json list = Json::list();
   for (const orbit::Margin& margin : margins) {
-    const int contact = orbit::contact_index(margin.kind, margin.contact, system.model());
+    const int contact = mode::contact_index(margin.kind, margin.contact, system.model());
     Json item = Json::object();
     item.set("guard", margin.reversal ? "reversal" : std::string(mode::name(margin.kind)))
         .set("contact", system.contact_name(contact))

@@ -85,7 +85,7 @@ Json special_json(const Described& with, const Whole& whole, std::size_t which) 
   if (!with.wanted.empty()) json.set("values", values_json(with, special.solution.orbit));
   if (const std::string outcome = orbit::what_becomes(special); !outcome.empty()) json.set("outcome", outcome);
   add_keys(json, typed_json(special, with.system), true);
-  if (const auto classes = classes_around(branch, special))
+  if (const auto classes = orbit::classes_around(branch, special))
     json.set("class_before", classes->first).set("class_behind", classes->second);
   if (special.type == orbit::SpecialType::NS) json.set("rotation", special.rotation);
   if (special.normal_form.coefficient)

@@ -36,7 +36,7 @@ class SpecialPoint:
     outcome = Given[str]("What becomes of the branch, in words; '' where it simply goes on.")
     normal_form = Given[str]("'supercritical', 'subcritical', or why there is no coefficient.")
     classes = Given[tuple[str, str]](
-        "Of the orbits before and beyond a change of events; empty where the branch does not go on so."
+        "Of the orbits before and beyond a change of events; two empty words where there is nothing beyond."
     )
 
     @property

@@ -184,10 +184,7 @@ using S = Special;
 
 /// The classes before and behind a change of events; empty words where there are none.
 std::pair<std::string, std::string> classes(const S& self) {
-  const orbit::SpecialPoint& point = self.point();
-  const auto& points = self.of->branch.points;
-  if (!orbit::goes_on(point.passage) || point.after + 1 >= points.size()) return {};
-  return {points[point.after].label, points[point.after + 1].label};
+  return orbit::classes_around(self.of->branch, self.point()).value_or(std::pair<std::string, std::string>());
 }
 
 /// d value / d other, and how it is known.

@@ -97,7 +97,7 @@ std::vector<std::tuple<std::string, std::string, double>> margins(const FoundOrb
   const System& system = self.setting->system;
   for (const orbit::Margin& margin : orbit::margins(*self.setting->problem, self.solution.orbit))
     all.emplace_back(margin.reversal ? "reversal" : std::string(mode::name(margin.kind)),
-                     system.contact_name(orbit::contact_index(margin.kind, margin.contact, system.model())),
+                     system.contact_name(mode::contact_index(margin.kind, margin.contact, system.model())),
                      margin.value);
   return all;
 }

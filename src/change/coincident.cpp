@@ -63,7 +63,7 @@ std::optional<Orbit> with_corner(const ModeSet& set, const Orbit& orbit) {
     leg.contact = static_cast<int>(i);
     leg.strikes.clear();
     leg.event = EventKind::corner;
-    leg.event_contact = contact_index(leg.kind, leg.contact, set.model());
+    leg.event_contact = mode::contact_index(leg.kind, leg.contact, set.model());
     return crossed;
   }
   return std::nullopt;

@@ -54,7 +54,7 @@ std::string tangential(const Leg& leg, mode::GuardKind kind, const System& syste
 std::string touching(const UsedMargin& margin, const System& system) {
   using enum mode::GuardKind;
   const std::string leg = " in leg " + std::to_string(margin.leg + 1);
-  const std::string contact = system.contact_name(contact_index(margin.guard, margin.contact, system.model()));
+  const std::string contact = system.contact_name(mode::contact_index(margin.guard, margin.contact, system.model()));
   switch (margin.guard) {
     case gap:
       return "the gap of " + contact + " touches zero" + leg;
@@ -175,7 +175,7 @@ std::string describe(const UsedMargin& margin, const Itinerary& shape, const Sys
         return "the force that lifts " + system.contact_name(margin.contact) +
                " off at a point of a signal comes to zero";
       return "the holding force of " +
-             system.contact_name(contact_index(mode::GuardKind::slip, margin.contact, system.model())) +
+             system.contact_name(mode::contact_index(mode::GuardKind::slip, margin.contact, system.model())) +
              " comes to static friction at its reversal (" + std::string(name(leg.event)) + ")";
     case UsedMargin::Kind::speed:
       return tangential(leg, margin.guard, system);
@@ -213,6 +213,21 @@ std::string what_happens(const SpecialPoint& point, const System& system) {
   }
   return describe(point.margin, point.solution.orbit.shape, system) + kind_in_brackets(point.sliding) +
          (point.chatter_begins ? ", and a complete chatter begins" : "");
+}
+
+bool goes_on(const Branch& branch, const SpecialPoint& special) {
+  if (special.after + 1 >= branch.points.size()) return false;
+  if (special.passage == Passage::family)  // the branch may end in the family, or go on with what rests
+    return branch.points[special.after].family != branch.points[special.after + 1].family;
+  return goes_on(special.passage);
+}
+
+std::optional<std::pair<std::string, std::string>> classes_around(const Branch& branch, const SpecialPoint& special) {
+  const std::string& here = branch.points[special.after].label;
+  if (goes_on(branch, special)) return std::pair(here, branch.points[special.after + 1].label);
+  const bool ends_in_another = special.passage == Passage::merges || special.passage == Passage::symmetric;
+  if (!ends_in_another || !changes_events(special.type) || special.born.empty()) return std::nullopt;
+  return std::pair(here, class_name(special.born.front()));
 }
 
 std::string what_becomes(const SpecialPoint& point) {

@@ -159,25 +159,39 @@ void set_scales(const Expansion& e, const double* weights) {
     }
 }
 
-/// Of one part of a group: nu, and the largest |T_39| over its scale.
+/// Of one part of a group: nu, the largest |T_39| over its scale, and by how much the scales of blocks are raised.
 struct Rest {
-  Part nu, last;
+  Part nu, last, raised[blocks];
 };
+
+/// The largest sum over a column of a block of what leads to it: from other blocks, and from its own.
+inline Part led_to(const Expansion& e, const Part* scales, int b, Part own) {
+  Part most{};
+  for (int i = e.block_ends[b]; i < e.block_ends[b + 1]; ++i) {
+    Part sum{};
+    for (int from = 0; from < blocks; ++from) sum += (from == b ? own : scales[from * parts]) * e.reach[from * e.m + i];
+    most = larger_of(most, sum);
+  }
+  return most;
+}
 
 /// The norm of A H in which a row t counts max_i |t_i| / scale_i, and that of T_39. Columns that no row reaches have no
 /// scale.
+///
+/// What moves by the clock acts on all bodies of a machine at once, and nothing leads back: its scales are raised until
+/// the norm of its columns is half of what the tail's bound allows. Else many bodies would have no window at all.
 inline Rest rest_of(const Expansion& e, const Part* scales, const Part* last_peaks, double ratio, double last_weight) {
+  constexpr int clock = 2;  // the first block
   Rest rest{};
   for (int b = 0; b < blocks; ++b) {
-    Part most{};
-    for (int i = e.block_ends[b]; i < e.block_ends[b + 1]; ++i) {
-      Part sum{};
-      for (int from = 0; from < blocks; ++from) sum += scales[from * parts] * e.reach[from * e.m + i];
-      most = larger_of(most, sum);
-    }
-    const Part none{}, scale = scales[b * parts], unreached = none + INFINITY;
-    rest.nu = larger_of(rest.nu, most > 0.0 ? (scale > 0.0 ? most / scale : unreached) : none);
-    rest.last = larger_of(rest.last, scale > 0.0 ? last_weight * last_peaks[b * parts] / scale : none);
+    const Part none{}, one = none + 1.0, scale = scales[b * parts], unreached = none + INFINITY;
+    Part most = led_to(e, scales, b, scale);
+    const Part over = scale > 0.0 ? ratio * most / (0.5 * all_terms * scale) : none;
+    rest.raised[b] = b < clock ? one : larger_of(one, over);
+    const Part size = rest.raised[b] * scale;
+    if (b >= clock) most = led_to(e, scales, b, size);
+    rest.nu = larger_of(rest.nu, most > 0.0 ? (scale > 0.0 ? most / size : unreached) : none);
+    rest.last = larger_of(rest.last, scale > 0.0 ? last_weight * last_peaks[b * parts] / size : none);
   }
   rest.nu *= ratio;
   return rest;
@@ -214,7 +228,8 @@ double excess(const Expansion& e, const double* weights, double ratio) {
           for (int n = terms; n < all_terms; ++n) sum += weights[n] * dropped[((n - terms) * e.m + i) * parts];
           most = larger_of(most, sum);
         }
-        const Part over = most / (0.25 * unit_roundoff * scale), beyond = share * (4.0 / unit_roundoff);
+        const Part over = most / (0.25 * unit_roundoff * scale),
+                   beyond = share * of_rest.raised[b] * (4.0 / unit_roundoff);
         worst = larger_of(worst, scale > 0.0 ? over + beyond : (most > 0.0 ? unbounded : none));
       }
     }
@@ -248,7 +263,7 @@ void enclose_tails(const Expansion& e, const double* weights, double ratio) {
             first += n * term;
             second += n * (n - 1.0) * term;
           }
-          const Part scale = scales[b * parts];
+          const Part scale = of_rest.raised[b] * scales[b * parts];
           const auto at = i * parts;
           tails[at] = value < unbounded ? sum + value * scale : unbounded;
           tails[row + at] = value < unbounded ? first + slope * scale : unbounded;

@@ -108,14 +108,15 @@ class Changes {
     }
   }
 
-  /// The event's own, and of contacts on other pairs: its change of force, or its impulse, has let them go.
+  /// The event's own, and of contacts on other pairs: its change of force, or its impulse, has let them go. What lets
+  /// go a contact of a pair that is struck is told by the impact.
   void of_releases() {
     for (std::size_t i = 0; i < now_.frictions.size(); ++i) {
       const bool released = old_.frictions[i] == Friction::stick && now_.frictions[i] != Friction::stick;
       const int contact = first_friction() + static_cast<int>(i);
       if (is_own(i, of_hold))
         tell_own(contact);
-      else if (released && !loses_its_share(i) && !of_pair(frame_.frictions[i]))
+      else if (released && !loses_its_share(i) && !of_pair(frame_.frictions[i]) && !is_struck(frame_.frictions[i]))
         tell_(EventKind::release, contact);
     }
     for (std::size_t i = 0; i < now_.stops.size(); ++i) {
@@ -187,6 +188,13 @@ class Changes {
       const bool sticks = now_.frictions[i] == Friction::stick && old_.frictions[i] != Friction::stick;
       if (sticks && frame_.parallel(frame_.frictions[i].own, stop.own) != 0) return true;
     }
+    return false;
+  }
+
+  /// Whether a stop of the contact's pair has got an impulse.
+  [[nodiscard]] bool is_struck(const mode::ContactRow& contact) const {
+    for (std::size_t k = 0; k < frame_.stops.size(); ++k)
+      if ((ended_.struck >> k & 1U) != 0 && frame_.parallel(frame_.stops[k].own, contact.own) != 0) return true;
     return false;
   }
 

@@ -74,6 +74,26 @@ constexpr ModeId most_modes = ModeId{1} << 62;
 
 ModeId pieces(const Characteristic& characteristic) { return static_cast<ModeId>(characteristic.corners.size()) + 1; }
 
+/// What a unit force of each contact makes of all u', without its sign.
+std::vector<mode::Vector> reaches(const mode::Frame& frame) {
+  std::vector<mode::Vector> all;
+  for (const auto* rows : {&frame.stops, &frame.frictions, &frame.compliant})
+    for (const mode::ContactRow& row : *rows) all.push_back(frame.mass_inverse.col(row.own));
+  for (const mode::PairRows& row : frame.characteristics) all.push_back(row.push);
+  return all;
+}
+
+/// The group of each contact, called by the last of them. Two contacts that share no mass have no u' that both change.
+std::vector<int> groups(const std::vector<mode::Vector>& reaches) {
+  std::vector<int> all;
+  for (std::size_t a = 0; a < reaches.size(); ++a) {
+    all.push_back(static_cast<int>(a));
+    for (std::size_t b = 0; b < a; ++b)
+      if ((reaches[a].array() * reaches[b].array() != 0.0).any()) std::replace(all.begin(), all.end(), all[b], all[a]);
+  }
+  return all;
+}
+
 /// In periods: a flight counts its windows as a number of the clock, whose steps this is far above.
 constexpr double shortest_cap = 0x1p-20;
 
@@ -112,6 +132,7 @@ CompiledSystem::CompiledSystem(Model model, SystemOptions options)
                             frame_.in_step(stop.own, friction.own)});
     }
   }
+  groups_ = groups(reaches(frame_));
 }
 
 mode::Mode CompiledSystem::build(ModeId id) const {

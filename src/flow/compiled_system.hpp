@@ -52,6 +52,9 @@ class CompiledSystem {
   }
 
   [[nodiscard]] std::string contact_name(int contact) const;
+  /// Contacts, as contact_name numbers them, are of one group if their forces act on each other's pairs at once, or
+  /// through others of the group. @returns one of the group's contacts
+  [[nodiscard]] int group(int contact) const { return groups_[static_cast<std::size_t>(contact)]; }
   /// How many states a friction contact or a compliant stop can be in.
   [[nodiscard]] int friction_states(std::size_t i) const { return model_.frictions[i].normal ? 4 : 3; }
   [[nodiscard]] int compliant_states(std::size_t i) const { return model_.compliant_stops[i].bounded ? 4 : 3; }
@@ -73,6 +76,7 @@ class CompiledSystem {
   std::vector<mode::Vector> impulses_;
   std::vector<mode::RowVector> presses_;
   std::vector<Coupling> couplings_;
+  std::vector<int> groups_;
 };
 
 }  // namespace slapstick::flow

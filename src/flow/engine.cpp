@@ -71,7 +71,13 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
 /// A start in contact and approaching is an impact, the first event of the motion.
 void Engine::start() {
   const int stop = approaching();
-  if (stop < 0) return start_mode();
+  if (stop < 0) {
+    here_ = nullptr;
+    start_mode();
+    if (!leave_limits_at_start()) return;
+    here_ = nullptr;  // nothing slips yet
+    return start_mode();
+  }
   mode_ = approaching_mode(*system_, X_.data());
   here_ = &system_->mode(mode_);
   begin_segment();

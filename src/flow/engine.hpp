@@ -62,6 +62,7 @@ class Engine : public Flight {
   void set_force_zero(int compliant);
   void gather_ties(int guard);
   void leave_touched_limits();
+  bool leave_limits_at_start();
   [[nodiscard]] bool only_touches(int guard, double rounding) const;
   [[nodiscard]] bool turns_with(const mode::Guard& corner, const mode::Guard& slip) const;
   [[nodiscard]] int of_pair(int guard) const;

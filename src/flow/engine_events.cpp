@@ -111,13 +111,12 @@ void Engine::compliant_limit(int compliant, GuardKind kind) {
 /// A characteristic passes a corner, a normal force or the excess of a spring force its zero; or touches it.
 void Engine::cross(int guard, bool graze) {
   const mode::Guard& hit = here_->guards()[guard];
-  const int compliant = stops() + frictions();  // the first of them
-  const int first = of_corner(hit.kind) ? compliant + compliants() : of_load(hit.kind) ? stops() : compliant;
-  if (graze) return force_limit(guard, first + hit.contact, graze);
+  const int contact = contact_index(hit.kind, hit.contact, system_->model());
+  if (graze) return force_limit(guard, contact, graze);
   const EventKind event = hit.kind == GuardKind::load       ? EventKind::unload
                           : hit.kind == GuardKind::unloaded ? EventKind::load
                                                             : EventKind::corner;
-  choose_next_mode(Cause::compliant, reported_event(event, first + hit.contact));
+  choose_next_mode(Cause::compliant, reported_event(event, contact));
 }
 
 /// The mode that may start now, from which a new flight begins.

@@ -10,6 +10,13 @@ namespace slapstick::flow {
 
 using mode::GuardKind;
 
+namespace {
+
+/// Of a slider that only touches its limit, in roundings: the choice of the mode looks at two on each side.
+constexpr double clear = 4.0;
+
+}  // namespace
+
 /// Is it the end of a slider's slip, by the velocity that is zero at the other guard?
 bool Engine::turns_with(const mode::Guard& corner, const mode::Guard& slip) const {
   if (slip.kind != GuardKind::slip) return false;
@@ -71,15 +78,39 @@ bool Engine::only_touches(int guard, double rounding) const {
 /// touched in each cycle, and rounding would say each time whether the slider slips. So a slider that only touches is
 /// drawn further, clear of what the search of roots and the choice of the mode take for zero; and a touch is no event.
 void Engine::leave_touched_limits() {
-  constexpr double clear = 4.0;  // roundings; the choice of the mode looks at two on each side
   for (std::size_t k = hits_.size(); k > 0; --k) {
     const int g = hits_[k - 1];
     const mode::Guard& limit = here_->guards()[g];
-    const double rounding = std::max(noise_of(g, arrived_x_), rounding_of(*here_, limit, magnitude_.data()));
+    const double rounding =
+        std::max(noise_of(g, arrived_x_), rounding_of(here_->size(), limit.size(magnitude_.data())));
     if (!only_touches(g, rounding)) continue;
     set_crossing_guard(limit, clear * rounding);
     hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k) - 1);
   }
+}
+
+/// The same of a start, which may be just before a pair turns back: the way on, a_0^2 / (2 |a_1|) of a speed
+/// a_0 + a_1 x, is rounding. @returns whether there is such a slider
+bool Engine::leave_limits_at_start() {
+  const mode::Frame& frame = system_->frame();
+  bool any = false;
+  for (int g = 0; g < here_->guard_count(); ++g) {
+    const mode::Guard& speed = here_->guards()[g];
+    const mode::SliderRow* slider = frame.slider(speed.kind, speed.contact);
+    if (slider == nullptr || slider->rests(here_->states().pieces)) continue;
+    const bool high = here_->states().pieces[static_cast<std::size_t>(speed.contact)] == 2;
+    const mode::RowVector& limit = frame.characteristics[speed.contact].corners[high ? 1 : 0];
+    double size = 0.0;
+    for (Eigen::Index j = 0; j < limit.size(); ++j) size += std::abs(limit[j]) * magnitude_.data()[j];
+    const double rounding = rounding_of(here_->size(), size);
+    event::Lane8 taylor, noise;
+    here_->leading(g, X_.data(), magnitude_.data(), taylor, noise);
+    const double way = here_->window() * taylor[0] * taylor[0];
+    if (!(taylor[1] < 0.0 && way <= -2.0 * taylor[1] * rounding)) continue;
+    X_.data()[slider->own] += (high ? clear : -clear) * rounding;
+    any = true;
+  }
+  return any;
 }
 
 /// The stop of a pair that comes to rest just where its gap vanishes, within the gap's rounding bound; -1 if there is

@@ -28,7 +28,8 @@
 /// chapter 5), solved by going through the combinations: first those in which one contact differs from what it prefers,
 /// then two, and so on; so a contact lets go only where it must, and a release costs as many tries as there are
 /// contacts, not as there are combinations. Each combination is tried on all sides of the lines that are being crossed
-/// before the next. Among redundant contacts one that would have to pull is left open, at rest all the same.
+/// before the next. Contacts that do not act on each other choose by themselves (flow/mode_choice.hpp).
+/// Among redundant contacts one that would have to pull is left open, at rest all the same.
 /// Combinations that certainly do not fit are refused before their mode is built.
 #include <span>
 
@@ -42,7 +43,9 @@ namespace slapstick::flow {
 inline constexpr int never = event::terms;
 inline constexpr int negative = -1;
 /// So much of a guard's value may be rounding.
-double rounding_of(const mode::Mode& mode, const mode::Guard& guard, const double* magnitude);
+/// @param m     numbers of X
+/// @param size  sum of the sizes of the value's terms
+double rounding_of(int m, double size);
 
 /// @param known derivatives below this order are known to vanish, whatever their stored values say (after a graze: 2).
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known = 0);

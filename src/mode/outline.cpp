@@ -260,6 +260,14 @@ std::string_view name(GuardKind kind) {
   return words[static_cast<int>(kind)];
 }
 
+int contact_index(GuardKind guard, int contact, const Model& model) {
+  const auto stops = static_cast<int>(model.stops.size()), frictions = static_cast<int>(model.frictions.size());
+  if (guard == GuardKind::gap || guard == GuardKind::press) return contact;
+  if (of_friction(guard) || of_load(guard)) return stops + contact;
+  if (!of_corner(guard)) return stops + frictions + contact;
+  return stops + frictions + static_cast<int>(model.compliant_stops.size()) + contact;
+}
+
 Outline::Outline(const Model& model, const Frame& frame, ContactStates contact_states)
     : states(std::move(contact_states)),
       steady(static_cast<std::size_t>(frame.d), false),

@@ -90,7 +90,7 @@ bool may_rest(const flow::CompiledSystem& system, const mode::Guard& guard) {
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
-  const int contact = contact_index(guard.kind, guard.contact, motion.system().model());
+  const int contact = mode::contact_index(guard.kind, guard.contact, motion.system().model());
   const auto own = ranges::find(events, contact, &Event::contact);
   const Event& event = own != events.end() ? *own : motion.event();
   leg.event = event.kind;

@@ -21,7 +21,7 @@ namespace slapstick::orbit {
 [[nodiscard]] bool has_leg_below(const Orbit& orbit, double part);
 /// How many legs, from one orbit of a shape to another, shrink to less than this part of their lengths?
 [[nodiscard]] int shrunk_legs(const Orbit& from, const Orbit& to, double part);
-constexpr double dead = 1e-2;         ///< of a leg's length
+constexpr double dead = 1e-2;        ///< of a leg's length
 constexpr double hardly_left = 0.1;  ///< of a leg that dies with another, as the root of the way to there
 /// Which legs die on the way from one orbit of a shape to another, so that less than this part of their length is left?
 [[nodiscard]] std::vector<bool> dead_legs(const Orbit& from, const Orbit& to, double part = dead);

@@ -44,14 +44,6 @@ std::string_view name(NormalForm::Verdict verdict) {
                                                  "resonance", "other-critical", "too-inexact", "no-map"});
 }
 
-int contact_index(mode::GuardKind guard, int contact, const Model& model) {
-  const auto stops = static_cast<int>(model.stops.size()), frictions = static_cast<int>(model.frictions.size());
-  if (mode::of_friction(guard) || mode::of_load(guard)) return stops + contact;
-  if (guard == mode::GuardKind::gap || guard == mode::GuardKind::press) return contact;
-  if (!mode::of_corner(guard)) return stops + frictions + contact;
-  return stops + frictions + static_cast<int>(model.compliant_stops.size()) + contact;
-}
-
 std::vector<std::size_t> events_at(const SpecialPoint& point) {
   const std::size_t legs = point.solution.orbit.legs(), leg = point.margin.leg;
   const bool of_margin = point.occurrence == Occurrence::margin || point.occurrence == Occurrence::death;
@@ -77,7 +69,7 @@ std::vector<int> contacts_at(const SpecialPoint& point, const Model& model) {
   for (const std::size_t leg : events_at(point))
     if (const Leg& ends = point.solution.orbit.shape.legs[leg]; ends.ending != Ending::cut) add(ends.event_contact);
   if (point.margin.kind != UsedMargin::Kind::duration)
-    add(contact_index(point.margin.guard, point.margin.contact, model));
+    add(mode::contact_index(point.margin.guard, point.margin.contact, model));
   return contacts;
 }
 

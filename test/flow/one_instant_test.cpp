@@ -203,6 +203,46 @@ TEST(OneInstant, TwoEqualFrictionContactsLetGoTogetherInTwoRows) {
   expect_pairs(events, EventKind::stick, 0, 1);
 }
 
+/// Equal bodies in a row with springs between them, each on a spring and a pad, under one force.
+Model row_of_pads(int count) {
+  Model m;
+  m.omega = 1.3;
+  for (int i = 0; i < count; ++i) {
+    m.coordinates.push_back({"x" + std::to_string(i), 1.0});
+    m.springs.push_back({i, ground, 1.0});
+    m.dampers.push_back({i, ground, 0.1});
+    m.forces.push_back({i, 1, 1.0, 0.0});
+    m.frictions.push_back({"pad" + std::to_string(i), i, ground, 0.0, 0.3, 0.3});
+    if (i > 0) m.springs.push_back({i - 1, i, 0.3});
+  }
+  return m;
+}
+
+/// All pads let go and hold at one instant: 3^24 combinations, of which a few for each pad are asked. A force acts on
+/// all bodies: with twenty of them and more the bound of a window's rest was infinite, however short the window.
+TEST(OneInstant, ManyEqualPadsActAsOne) {
+  const auto events = [](const System& system) {
+    std::vector<Event> all;
+    Motion motion(system, State(2 * static_cast<std::size_t>(system.model().size()), 0.0));
+    while (motion.advance({10, 0.0}) == Outcome::event) all.push_back(motion.event());
+    return all;
+  };
+  const System one(row_of_pads(1));
+  const std::vector<Event> of_one = events(one);
+  ASSERT_GE(of_one.size(), 20U);
+  for (const int count : {12, 24}) {
+    const System many(row_of_pads(count));
+    EXPECT_LT(many.windows_per_period(), 2.0 * one.windows_per_period()) << count;
+    const std::vector<Event> all = events(many);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(count) * of_one.size()) << count;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Event& same = of_one[i / static_cast<std::size_t>(count)];
+      EXPECT_EQ(all[i].kind, same.kind) << i;
+      EXPECT_NEAR(all[i].time.since(same.time), 0.0, 1e-12) << i;
+    }
+  }
+}
+
 TEST(OneInstant, TwoEqualSpringsPassTheirCornersInTwoRows) {
   Model model = twins();
   for (const int i : {0, 1})

@@ -1,7 +1,9 @@
 #pragma once
 /// Results of the continuation in words: the one place where their sentences are made. No program takes a sentence
 /// apart: all that it says is in the result's enumerations and numbers.
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "slapstick/continuation/branch.hpp"
 #include "slapstick/flow/system.hpp"
@@ -16,6 +18,12 @@ namespace slapstick::orbit {
 [[nodiscard]] std::string what_becomes(const SpecialPoint& point);
 /// "supercritical", or why there is no coefficient; empty where no coefficient is asked for.
 [[nodiscard]] std::string sentence(const NormalForm& form);
+/// Does the branch go on behind a change of events?
+[[nodiscard]] bool goes_on(const Branch& branch, const SpecialPoint& special);
+/// The classes before and behind a change of events: of the branch, in the order of its points, or of the orbit of
+/// another branch in which it ends.
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> classes_around(const Branch& branch,
+                                                                                const SpecialPoint& special);
 /// Why a branch ends at either side.
 [[nodiscard]] std::string sentence(const Branch& branch);
 [[nodiscard]] std::string sentence(const Branch& branch, const BranchEnd& end);

@@ -13,6 +13,8 @@
 
 namespace slapstick {
 
+struct Model;
+
 /// A combination of contact states as one number: stops are digits of base 2, then friction contacts and compliant
 /// stops digits of base 3 (4 where they have four states), then characteristics digits of as many values as they have
 /// pieces. `System::states` and `System::mode_id` translate.
@@ -94,6 +96,9 @@ enum class GuardKind {
 /// True for guards whose zero is a line that motions cross: the guard of the state behind it is the same number with
 /// the other sign. The velocity does not jump there, and the force only at the edge of a zone.
 [[nodiscard]] inline bool of_crossing(GuardKind kind) { return of_corner(kind) || of_load(kind) || of_bound(kind); }
+
+/// A contact of a guard's kind, as System::contact_name numbers all contacts.
+[[nodiscard]] int contact_index(GuardKind guard, int contact, const Model& model);
 
 }  // namespace mode
 }  // namespace slapstick

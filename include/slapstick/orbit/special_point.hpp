@@ -167,9 +167,6 @@ struct SpecialPoint {
   NormalForm normal_form;  ///< of LP, PD, NS
 };
 
-/// A contact of a guard's kind, as System::contact_name numbers all contacts.
-[[nodiscard]] int contact_index(mode::GuardKind guard, int contact, const Model& model);
-
 /// The events of the orbit at a special point that meet, or that the margin belongs to: indices of legs, each of which
 /// such an event ends. Two for a leg that shrinks to nothing: what ends the leg before it, and what ends it.
 [[nodiscard]] std::vector<std::size_t> events_at(const SpecialPoint& point);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "section/at_limits.hpp"
 #include "section/attraction.hpp"
 #include "section/isolated.hpp"
 #include "slapstick/base/error.hpp"
@@ -83,7 +84,8 @@ bool Confirmation::on_a_family(const FixedPoint& found, int n) const {
 std::optional<Cycle> Confirmation::drawn_to(int n, const VectorXd& start) const {
   auto found = fixed_point(map_, start, n, record_.scale(), options_.stop);
   if (!found || !found->stable()) return std::nullopt;
-  if (on_a_family(*found, n)) return std::nullopt;  // `member` judges
+  if (on_a_family(*found, n) || clear_of_limits(map_, found->x, n, record_.scale(), options_.stop))
+    return std::nullopt;  // see `member`
   const Attraction seen = attraction(map_, {options_.by_record ? &record_ : nullptr, motion_, options_.there}, *found,
                                      n, record_.scale(), options_.stop);
   if (!seen.drawn) return std::nullopt;
@@ -128,7 +130,8 @@ std::optional<Cycle> Confirmation::member(int n) const {
     const bool returns = record_.returned(length) <= options_.tolerance;
     if (!returns && !nearest) nearest = beside(last, n);
     if (!returns && !(nearest->size() > 0 && closes(*nearest, length))) continue;
-    const VectorXd& here = returns ? last : *nearest;
+    const VectorXd& seen = returns ? last : *nearest;
+    const VectorXd here = clear_of_limits(map_, seen, length, record_.scale(), options_.stop).value_or(seen);
     const int dimensions = family(map_, here, length, record_.scale(), options_.stop);
     const MapValue map = map_.value(here, length, options_.stop);
     auto multipliers = map_.multipliers(map.jacobian);

@@ -55,6 +55,8 @@ class ReturnMap {
   /// Takes out of tangents at a point of the section what leads along the motion to other instants only. One that
   /// keeps nothing but rounding is zero then: stick has forgotten it.
   virtual void take_out_flow(const Motion&, Eigen::MatrixXd&) const {}
+  /// The map of another system of the same size; null where a section is chosen by a motion.
+  [[nodiscard]] virtual std::unique_ptr<ReturnMap> of(const System&) const { return nullptr; }
 
  private:
   flow::Translations translations_;
@@ -67,6 +69,9 @@ class Stroboscopic final : public ReturnMap {
   [[nodiscard]] std::optional<Instant> next(const Motion& motion, Stop stop) const override;
   bool run(Motion& motion, long n, Stop stop) const override;
   [[nodiscard]] MapValue value(const Eigen::VectorXd& x, int n, Stop stop) const override;
+  [[nodiscard]] std::unique_ptr<ReturnMap> of(const System& system) const override {
+    return std::make_unique<Stroboscopic>(system);
+  }
 };
 
 struct FixedPoint {

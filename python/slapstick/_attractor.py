@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _progress
-from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, rows_of, start_of, stops_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of, stops_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._quantity import Measured, measure
 from ._result import Floats, Given, Interrupted, Result
@@ -244,6 +245,7 @@ def classify(
     parameters: Mapping[str, float] | None = ...,
     **values: ArrayLike,
 ) -> Attractors: ...
+@obeys("classify")
 def classify(
     model: Model | str | os.PathLike[str],
     *,
@@ -281,7 +283,6 @@ def classify(
     """
     chosen = model_of(model)
     given = given_to(classify, chosen, values, parameters)
-    demand_counts(transient=transient, most_periods=most_periods, most_n=most_n, exponent_periods=exponent_periods)
     options = {"transient": transient, "most_periods": most_periods, "most_n": most_n, "stops": stops, "start": start}
     options |= {"exponent_periods": exponent_periods, "quick": quick}
     limits = _core.Limits(transient, most_periods, most_n, exponent_periods, quick, stops_of(stops))
@@ -308,7 +309,7 @@ def classify_many(
     failed = [row for row in attractors if row.failure]
     if failed:
         what = f"{len(failed)} of {len(attractors)} values failed, first {failed[0]._title()}: {failed[0].failure}"
-        warnings.warn(what, RuntimeWarning, stacklevel=3)
+        warnings.warn(what, RuntimeWarning, stacklevel=4)
     if len(done) < len(rows):
         raise Interrupted(result)
     return result

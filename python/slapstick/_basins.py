@@ -15,6 +15,7 @@ from ._chart_plot import draw_classes
 from ._core import InputError
 from ._map import Axis, along, axis_of, edges
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Interrupted, Result, axes
 
@@ -134,6 +135,7 @@ class Basins(Result):
         return facts + ([("undecided", str(undecided))] if undecided else [])
 
 
+@obeys("basins")
 def basins(
     model: Model | str | os.PathLike[str],
     x: Axis,
@@ -209,5 +211,5 @@ def reported(found: Basins) -> Basins:
     if found.failures:
         pixel, why = found.failures[0]
         where = f"{found.x_name} = {found.x[pixel % len(found.x)]:g}, {found.y_name} = {found.y[pixel // len(found.x)]:g}"
-        warnings.warn(f"{len(found.failures)} starts failed, first {where}: {why}", RuntimeWarning, stacklevel=3)
+        warnings.warn(f"{len(found.failures)} starts failed, first {where}: {why}", RuntimeWarning, stacklevel=4)
     return found

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, GivenTruths, GivenWords, Interrupted, Result
 from ._tables import categorical
@@ -117,6 +118,7 @@ class Batch(Result):
         return facts + ([("failed", str(failed))] if failed else [])
 
 
+@obeys("map", periods="measured_periods", points="transient", lanes="transient")
 def batch(
     model: Model | str | os.PathLike[str],
     *,
@@ -186,5 +188,5 @@ def reported(found: Batch) -> Batch:
     failed = [(run, text) for run, text in enumerate(found.failures) if text]
     if failed:
         run, text = failed[0]
-        warnings.warn(f"{len(failed)} of {len(found)} runs failed, first run {run}: {text}", RuntimeWarning, stacklevel=3)
+        warnings.warn(f"{len(failed)} of {len(found)} runs failed, first run {run}: {text}", RuntimeWarning, stacklevel=4)
     return found

@@ -14,6 +14,7 @@ from . import _core, _progress
 from ._core import InputError
 from ._followed import Followed, finished
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._orbit import Orbit, wish_of
 from ._progress import Progress
 from ._quantity import Measured, statistics_of
@@ -140,6 +141,7 @@ class Branch(Followed):
         return super()._repr_html_() + html_table(("type", self.parameter, "what", "outcome"), rows)
 
 
+@obeys("continue")
 def continuation(
     model: Model | str | os.PathLike[str],
     parameter: str,
@@ -189,7 +191,7 @@ def continuation(
         statistics_of("y", y, chosen, fixed)
     arguments = (chosen._core, fixed, parameter, begin, end, start_of(start), wish, step, points, same_events)
     core = _progress.run(_core.continuation, arguments, "points at most", 2 * points, progress)
-    return finished(Branch(core, chosen, fixed, options), "continuation", 3)
+    return finished(Branch(core, chosen, fixed, options), "continuation", 4)
 
 
 def continue_orbit(

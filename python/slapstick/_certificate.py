@@ -11,6 +11,7 @@ from typing import Any
 from . import _core, _progress
 from ._core import StorageError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Interrupted, Result
 
@@ -41,6 +42,7 @@ class Certificate(Result):
         return [(name, str(getattr(self, name))) for name in names]
 
 
+@obeys("simulate")
 def certify(
     model: Model | str | os.PathLike[str],
     path: str | os.PathLike[str],

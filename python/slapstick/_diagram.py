@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of, sweep_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._quantity import statistics_of
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
@@ -130,6 +131,7 @@ class Diagram(Result):
         return facts + ([("failed", str(len(self.failures)))] if self.failures else [])
 
 
+@obeys("diagram")
 def diagram(
     model: Model | str | os.PathLike[str],
     *,
@@ -215,5 +217,5 @@ def reported(found: Diagram, total: int) -> Diagram:
     ):
         if rows:
             value, text = rows[0]
-            warnings.warn(f"{words_of}, first {found.parameter} = {value:g}: {text}", RuntimeWarning, stacklevel=3)
+            warnings.warn(f"{words_of}, first {found.parameter} = {value:g}: {text}", RuntimeWarning, stacklevel=4)
     return found

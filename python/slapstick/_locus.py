@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._branch import continuation, range_of
-from ._core import NumericalError
+from ._core import InputError, NumericalError
 from ._followed import Followed, finished
 from ._model import Model
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Given, axes
 from ._special import SpecialPoint
@@ -93,6 +94,10 @@ class Locus(Followed):
         return [("type", self.type), ("points", str(len(self))), ("met", met or "nothing"), ("ended", self.ended)]
 
 
+TYPES = ("LP", "PD", "NS", "BP", "GR", "SL", "CH", "CO")
+
+
+@obeys("curve")
 def locus(
     model: Model | str | os.PathLike[str],
     first: str,
@@ -120,6 +125,11 @@ def locus(
     >>> len(curve) > 10, curve.ended
     (True, 'down: range; up: range')
     """
+    for name in ("same_events", "y"):
+        if name in options:
+            raise InputError(f"{name}: not an option of locus")
+    if type not in TYPES:
+        raise InputError(f"type = {type!r} is not one of " + ", ".join(TYPES))
     branch = continuation(model, first, between, step=BRANCH_STEP, points=BRANCH_POINTS, progress=progress, **options)
     points_of_type = [point for point in branch.special if point.type == type]
     if len(points_of_type) < which:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core, _progress
-from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, rows_of, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, rows_of, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, Interrupted, Result
 
@@ -85,6 +86,7 @@ def lyapunov(
     parameters: Mapping[str, float] | None = ...,
     **values: ArrayLike,
 ) -> list[Exponents]: ...
+@obeys("lyapunov")
 def lyapunov(
     model: Model | str | os.PathLike[str],
     *,
@@ -113,7 +115,6 @@ def lyapunov(
     """
     chosen = model_of(model)
     given = given_to(lyapunov, chosen, values, parameters)
-    demand_counts(transient=transient, periods=periods, error=error)
     options = {"transient": transient, "periods": periods, "error": error, "start": start}
     limits = (start_of(start), transient, periods, error)
     if any(np.ndim(value) > 0 for value in given.values()):
@@ -147,4 +148,4 @@ def complain(results: Sequence[Exponents]) -> None:
     ):
         if bad:
             first = f"{bad[0]._title()}: {bad[0].failure}" if bad[0].failure else bad[0]._title()
-            warnings.warn(f"{len(bad)} of {len(results)} {what}, first {first}", RuntimeWarning, stacklevel=4)
+            warnings.warn(f"{len(bad)} of {len(results)} {what}, first {first}", RuntimeWarning, stacklevel=5)

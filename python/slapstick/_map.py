@@ -16,6 +16,7 @@ from . import _core, _progress
 from ._chart_plot import CURVE_STYLES, draw_classes, draw_inset
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, number, numbers, start_of, stops_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._quantity import statistics_of
 from ._result import Floats, Interrupted, Result, axes
@@ -263,6 +264,7 @@ def merged(parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     return whole | {"failures": failures, "complete": all(part["complete"] for part in parts)}
 
 
+@obeys("map")
 def map(  # noqa: A001 (the verb is called so)
     model: Model | str | os.PathLike[str],
     x: Axis,
@@ -361,5 +363,5 @@ def reported(found: Map) -> Map:
     if found.failures:
         pixel, why = found.failures[0]
         where = f"{found.x_name} = {found.x[pixel % len(found.x)]:g}, {found.y_name} = {found.y[pixel // len(found.x)]:g}"
-        warnings.warn(f"{len(found.failures)} pixels failed, first {where}: {why}", RuntimeWarning, stacklevel=3)
+        warnings.warn(f"{len(found.failures)} pixels failed, first {where}: {why}", RuntimeWarning, stacklevel=4)
     return found

@@ -203,13 +203,6 @@ def given_to(verb: Callable[..., Any], model: Model, values: Values, parameters:
     return given
 
 
-def demand_counts(**counts: float | None) -> None:
-    """Raises InputError for a negative number of something. It would be taken for none, and the answer for one."""
-    for name, count in counts.items():
-        if count is not None and not count >= 0:
-            raise InputError(f"{name} = {count!r} is negative")
-
-
 def refuse_option(verb: Callable[..., Any], model: Model, name: str) -> None:
     """A word that is no parameter but like an option. What is neither is left to the library, which lists the parameters."""
     if name in ("tol", "rtol", "atol", "tolerance"):

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError
-from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -148,6 +149,7 @@ class Motion(Result):
         ] + ([] if self.complete else [("complete", "no")])
 
 
+@obeys("simulate", {"samples": 0})
 def simulate(
     model: Model | str | os.PathLike[str],
     *,
@@ -177,10 +179,7 @@ def simulate(
     """
     chosen = model_of(model)
     given = numbers(given_to(simulate, chosen, values, parameters))
-    if time is not None and periods is not None:
-        raise InputError("periods, time: one length is wanted, not both")
     periods = 100 if periods is None else periods
-    demand_counts(samples=samples)
     if time is None and periods * samples > 1e9:
         raise InputError(f"samples: {periods * samples:g} samples in all are more than 1e9; samples=0 keeps events only")
     options = {"periods": periods, "time": time, "samples": samples, "start": start}

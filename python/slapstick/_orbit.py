@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._motion import Motion, simulate
 from ._progress import Progress
 from ._quantity import Measured, measured_orbit
@@ -176,6 +177,7 @@ def wish_of(options: dict[str, Any]) -> _core.OrbitWish:
     return _core.OrbitWish(*(options[name] for name in names))
 
 
+@obeys("orbit")
 def orbit(
     model: Model | str | os.PathLike[str],
     orbit: str = "",
@@ -217,6 +219,7 @@ def orbit(
 VERB = orbit  # which has an argument of its own name
 
 
+@obeys("orbit", most_n="max_n")
 def orbits(
     model: Model | str | os.PathLike[str],
     *,

@@ -10,6 +10,7 @@ import numpy as np
 from . import _core, _progress
 from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, Result, axes
 
@@ -55,6 +56,7 @@ class OrderMap(Result):
         return [("values", str(len(self.value))), ("orders", str(len(self.order)))]
 
 
+@obeys("spectrum")
 def order_map(
     model: Model | str | os.PathLike[str],
     of: str,

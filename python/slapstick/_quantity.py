@@ -10,7 +10,8 @@ import numpy as np
 
 from . import _core, _progress
 from ._core import InputError, Quantity, StopImpacts
-from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, start_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, Result, axes
 
@@ -111,6 +112,7 @@ def statistics_of(
     return wanted
 
 
+@obeys("measure")
 def measure(
     model: Model | str | os.PathLike[str],
     of: str | Sequence[str],
@@ -145,7 +147,6 @@ def measure(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(measure, chosen, values, parameters))
-    demand_counts(transient=transient, periods=periods)
     by = words_of(sensitivity)
     options = {"of": of, "periods": periods, "sensitivity": by, "transient": transient, "start": start}
     wanted = wanted_of(of, chosen, fixed)
@@ -221,6 +222,7 @@ class Spectrum(Result):
         return [("lines of", self.label) if self.of_cycle else ("density", ""), ("points", str(len(self.order)))]
 
 
+@obeys("spectrum")
 def spectrum(
     model: Model | str | os.PathLike[str],
     of: str,
@@ -248,7 +250,6 @@ def spectrum(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(spectrum, chosen, values, parameters))
-    demand_counts(transient=transient, periods=periods, orders=orders, stretch=stretch)
     options = {"of": of, "orders": orders, "periods": periods, "stretch": stretch, "transient": transient, "start": start}
     call = (chosen._core, fixed, start_of(start), of, float(orders), transient, float(periods), float(stretch))
     found = _progress.run(_core.spectrum, call, "periods", 500 if transient is None else transient, progress)

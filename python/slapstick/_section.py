@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from . import _core, _progress
 from ._core import InputError, NumericalError
-from ._model import Model, Start, Values, demand_counts, given_to, model_of, numbers, start_of, stops_of
+from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of
+from ._obeys import obeys
 from ._progress import Progress
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
@@ -101,6 +102,7 @@ class Section(Result):
         return [("section", self.options["section"]), ("points", str(len(self)))]
 
 
+@obeys("poincare")
 def poincare(
     model: Model | str | os.PathLike[str],
     *,
@@ -133,7 +135,6 @@ def poincare(
     """
     chosen = model_of(model)
     fixed = numbers(given_to(poincare, chosen, values, parameters))
-    demand_counts(transient=transient, points=points)
     options = {"section": section, "event": event, "phase": phase, "transient": transient, "points": points}
     options |= {"most_periods": most_periods, "stops": stops, "start": start}
     begin = (chosen._core, fixed, start_of(start), transient, points)
@@ -162,5 +163,5 @@ def finished(found: Section) -> Section:
     where = f"in {found._core.periods:g} periods after the transient"
     if len(found) == 0:
         raise NumericalError(f"no {what} {where}: try other parameters, another start or a longer most_periods")
-    warnings.warn(f"only {len(found)} {what} {where} (see most_periods)", RuntimeWarning, stacklevel=3)
+    warnings.warn(f"only {len(found)} {what} {where} (see most_periods)", RuntimeWarning, stacklevel=4)
     return found

@@ -122,7 +122,6 @@ std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overri
   auto result = std::make_unique<Spectra>();
   const std::vector<Quantity> wanted = named(definition, values, {of});
   Watch watch(std::move(progress));
-  bool complete = false;
   watch.run_aside([&] {
     const auto span = span_of(definition, values, start, {transient, periods, 2048.0}, watch.cancel());
     if (!span) return;
@@ -132,9 +131,8 @@ std::unique_ptr<Spectra> spectra(const ModelDefinition& definition, const Overri
     } else {
       result->points = density(*span, wanted[0], {stretch, 1, orders, watch.cancel(), {}});
     }
-    complete = result->points.complete;
   });
-  watch.finish(complete);
+  watch.finish(false);
   if (!result->lines) {
     result->order = result->points.order;
     result->frequency = result->points.frequency;

@@ -1,5 +1,7 @@
 """Errors are the library's three kinds, with the text of the command line."""
 
+import re
+
 import numpy as np
 import pytest
 import slapstick
@@ -72,11 +74,11 @@ def test_an_orbit_that_is_no_orbit_is_refused():
     [
         (lambda: slapstick.simulate("vibro-impact", omega=[1, 2]), r"omega: \[1, 2\] is not a number"),
         (lambda: slapstick.simulate("vibro-impact", start=[1, 2, 3]), "state"),
-        (lambda: slapstick.simulate("vibro-impact", periods=-1), "periods is outside"),
-        (lambda: slapstick.simulate("vibro-impact", samples=-1), "samples = -1 is negative"),
-        (lambda: slapstick.lyapunov("vibro-impact", periods=-1), "periods = -1 is negative"),
-        (lambda: slapstick.lyapunov("vibro-impact", transient=-1), "transient = -1 is negative"),
-        (lambda: slapstick.measure("vibro-impact", "x1:rms", periods=-1), "periods = -1 is negative"),
+        (lambda: slapstick.simulate("vibro-impact", periods=-1), "periods = -1 is outside"),
+        (lambda: slapstick.simulate("vibro-impact", samples=-1), "samples = -1 is outside"),
+        (lambda: slapstick.lyapunov("vibro-impact", periods=-1), "periods = -1 is outside"),
+        (lambda: slapstick.lyapunov("vibro-impact", transient=-1), "transient = -1 is outside"),
+        (lambda: slapstick.measure("vibro-impact", "x1:rms", periods=-1), "periods = -1 is outside"),
         (lambda: slapstick.poincare("belt"), "has no stop"),
         (lambda: slapstick.diagram("vibro-impact"), "one parameter varies"),
         (lambda: slapstick.diagram("vibro-impact", omega=(3, 2, 5)), "is not of the form"),
@@ -93,6 +95,41 @@ def test_a_call_that_makes_no_sense_is_an_input_error(call, text):
         call()
 
 
+AXES = (("omega", 2, 3, 2), ("friction", 0.1, 0.2, 2))
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: slapstick.classify("belt", most_n=0), r"most_n = 0 is outside [1, 4096]"),
+        (lambda: slapstick.classify("belt", quick=20, transient=5), "quick: not with transient"),
+        (lambda: slapstick.classify("belt", most_n=2.5), "most_n = 2.5 is not a whole number"),
+        (lambda: slapstick.classify("belt", most_n=True), "most_n = True is not a whole number"),
+        (lambda: slapstick.classify("belt", most_n="7"), "most_n = '7' is not a whole number"),
+        (lambda: slapstick.classify("vibro-impact", omega=[1, 2], threads=10**9), "threads = 1000000000 is outside"),
+        (lambda: slapstick.lyapunov("belt", error=float("inf")), "error = inf is outside (0, inf)"),
+        (lambda: slapstick.lyapunov("belt", error=float("nan")), "error = nan is not a number"),
+        (lambda: slapstick.orbit("vibro-impact", "1-1", starts=-1), "starts = -1 is outside"),
+        (lambda: slapstick.orbits("vibro-impact", most_n=-1), "most_n = -1 is outside [1, 64]"),
+        (lambda: slapstick.continuation("vibro-impact", "omega", (2, 3), points=-1), "points = -1 is outside"),
+        (lambda: slapstick.locus("vibro-impact", "omega", "friction", (2, 3), (0.1, 0.2), which=0), "which = 0 is outside"),
+        (lambda: slapstick.locus("vibro-impact", "omega", "friction", (2, 3), (0.1, 0.2), type="gr"), "type = 'gr' is not one of"),
+        (lambda: slapstick.map("vibro-impact", *AXES, measured_periods=5), "measured_periods: only with of"),
+        (lambda: slapstick.map("vibro-impact", *AXES, level="full", periods=50), "periods: only with level = 'quick'"),
+        (lambda: slapstick.basins("vibro-impact", transient=5), "transient: only with level = 'full'"),
+        (lambda: slapstick.poincare("vibro-impact", phase=0.5), "phase: only with section = 'stroboscopic'"),
+        (lambda: slapstick.spectrum("belt", "x:rms", orders=float("inf")), "orders = inf is outside"),
+    ],
+)
+def test_what_the_command_line_refuses_is_refused(call, text):
+    with pytest.raises(slapstick.InputError, match=re.escape(text)):
+        call()
+
+
+def test_a_whole_number_may_be_a_float():
+    assert slapstick.classify("vibro-impact", omega=1.5, most_n=8.0, transient=np.int64(400)).label == "1-1-II"
+
+
 def test_few_points_are_a_warning_and_none_an_error():
     with pytest.warns(RuntimeWarning, match="only .* impacts in"):
         slapstick.poincare("vibro-impact", points=100, most_periods=20)
@@ -107,7 +144,7 @@ def test_few_points_are_a_warning_and_none_an_error():
         (lambda: slapstick.classify("vibro-impact", transients=5), "did you mean the option transient?"),
         (lambda: slapstick.orbit("vibro-impact", "1-1", symetric=True), "did you mean the option symmetric?"),
         (lambda: slapstick.simulate("vibro-impact", rtol=1e-6), "there is no tolerance"),
-        (lambda: slapstick.simulate("vibro-impact", periods=1, time=1), "one length is wanted, not both"),
+        (lambda: slapstick.simulate("vibro-impact", periods=1, time=1), "time: not with periods"),
         (lambda: slapstick.simulate("vibro-impact", periods=1e9, samples=1000), "samples=0 keeps events only"),
     ],
 )

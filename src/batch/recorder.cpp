@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slapstick/flow/stage.hpp"
+
 namespace slapstick::batch {
 Instant Recorder::next() const {
   const int points = std::max(plan_->points, 1);
@@ -36,12 +38,17 @@ bool Recorder::look(const mode::Frame& frame, const double* p, const double* u, 
   return true;
 }
 
-bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, bool to_the_end) {
+bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, const std::atomic<bool>* cancel,
+            bool to_the_end) {
+  constexpr std::int64_t periods_between_looks = 1000;
   const mode::Frame& frame = engine.system().frame();
   for (;;) {
-    const Outcome outcome = engine.advance(recorder.next());
+    if (stopped(cancel)) return true;
+    const Instant look = {engine.time().period + periods_between_looks, 0.0}, end = std::min(recorder.next(), look);
+    const Outcome outcome = engine.advance(end);
     if (tangent != nullptr) tangent->follow(engine, outcome);
     if (outcome == Outcome::reached_end) {
+      if (end < recorder.next()) continue;
       if (tangent != nullptr && !recorder.recording() && !std::isfinite(tangent->growth())) tangent->begin(engine);
       const double growth = tangent != nullptr ? tangent->growth() : 0.0;
       if (recorder.look(frame, engine.extended().data(), engine.extended().data() + frame.d, growth)) return true;

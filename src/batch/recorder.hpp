@@ -1,5 +1,6 @@
 #pragma once
 /// What is recorded of a run, whoever carries it on: instants to look at, impacts, points.
+#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -47,7 +48,9 @@ class Recorder {
 /// Carries a run on by its engine: to its end, or over one event. An impact that may begin a complete chatter is
 /// followed by the next event.
 /// @param tangent  follows too; null if the recorder wants no exponent
+/// @param cancel   true: the run ends where it is, not done; null: never
 /// @returns true if the run is at its end
-bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, bool to_the_end);
+bool follow(flow::Engine& engine, Recorder& recorder, EngineTangent* tangent, const std::atomic<bool>* cancel,
+            bool to_the_end);
 
 }  // namespace slapstick::batch

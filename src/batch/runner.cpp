@@ -8,6 +8,7 @@
 #include "batch/report.hpp"
 #include "batch/shape.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/flow/stage.hpp"
 
 namespace slapstick::batch {
 
@@ -69,7 +70,7 @@ void Runner::run() {
     }
     if (block_->occupied == 0) return;
     kernel_.run(*block_);
-    if (queue_.cancel != nullptr && queue_.cancel->load(std::memory_order_relaxed)) return;
+    if (stopped(queue_.cancel)) return;
     for (unsigned left = block_->cuts | block_->doubtful | block_->wanting | block_->events; left != 0;
          left &= left - 1)
       serve(__builtin_ctz(left));
@@ -88,7 +89,9 @@ std::shared_ptr<const Runner::Machine> Runner::machine_of(std::size_t index) {
 
 /// The next run that lanes can carry; those that they cannot, and those that fail at once, are done on the way.
 std::unique_ptr<Runner::Entry> Runner::next_entry() {
-  while (const std::optional<std::size_t> index = queue_.next()) {
+  while (!stopped(queue_.cancel)) {
+    const std::optional<std::size_t> index = queue_.next();
+    if (!index) break;
     BatchRun failed;
     try {
       const std::shared_ptr<const Machine> machine = machine_of(*index);
@@ -118,7 +121,7 @@ std::unique_ptr<Runner::Entry> Runner::next_entry() {
         tangent.emplace(system).begin(engine);
         recorder.begin_growth(tangent->growth());
       }
-      follow(engine, recorder, tangent ? &*tangent : nullptr, true);
+      follow(engine, recorder, tangent ? &*tangent : nullptr, queue_.cancel, true);
       queue_.take(*index, std::move(recorder.run));
       continue;
     } catch (const NumericalError& error) {
@@ -302,7 +305,7 @@ void Runner::ask_engine(int l, bool to_the_end) {
   block_->starting &= ~(1U << l);
   try {
     put_engine(l);
-    if (follow(*entry_[l]->engine, recorder, entry_[l]->tangent.get(), to_the_end)) return finish(l);
+    if (follow(*entry_[l]->engine, recorder, entry_[l]->tangent.get(), queue_.cancel, to_the_end)) return finish(l);
     return to_lane(l);
   } catch (const NumericalError& error) {
     recorder.run.failure = error.what();
@@ -364,7 +367,7 @@ void Runner::to_lane(int l) {
   entry.stands = true;
   const int mode = static_cast<int>(entry.engine->mode_id());
   if (!make_mode(l, mode)) {
-    (void)follow(*entry.engine, entry.recorder, entry.tangent.get(), true);
+    (void)follow(*entry.engine, entry.recorder, entry.tangent.get(), queue_.cancel, true);
     return finish(l);
   }
   block_->mode[l] = block_->active_mode[l] = mode;

@@ -22,6 +22,12 @@ def test_the_page_of_all_options_is_what_the_program_writes():
     assert read(os.path.join(ROOT, 'docs', 'reference', 'options.md')) == good('describe', '--markdown')
 
 
+def test_the_rules_of_python_are_those_of_the_options():
+    writer = os.path.join(ROOT, 'tools', 'make_python_rules')
+    written = subprocess.run([sys.executable, writer], input=good('describe', '--json'), capture_output=True, text=True, check=True)
+    assert read(os.path.join(ROOT, 'python', 'slapstick', '_rules.py')) == written.stdout
+
+
 def test_every_verb_of_the_help_is_described_and_every_option_is_in_its_help():
     verbs = {verb['name']: verb for verb in described()['verbs']}
     listed = [line.split()[0] for line in good('--help').split('Verbs:\n')[1].split('\n\n')[0].splitlines()]

@@ -87,9 +87,12 @@ std::vector<mode::Vector> reaches(const mode::Frame& frame) {
 std::vector<int> groups(const std::vector<mode::Vector>& reaches) {
   std::vector<int> all;
   for (std::size_t a = 0; a < reaches.size(); ++a) {
-    all.push_back(static_cast<int>(a));
-    for (std::size_t b = 0; b < a; ++b)
-      if ((reaches[a].array() * reaches[b].array() != 0.0).any()) std::replace(all.begin(), all.end(), all[b], all[a]);
+    const auto name = static_cast<int>(a);
+    all.push_back(name);
+    for (std::size_t b = 0; b < a; ++b) {
+      const int other = all[b];
+      if ((reaches[a].array() * reaches[b].array() != 0.0).any()) std::replace(all.begin(), all.end(), other, name);
+    }
   }
   return all;
 }

@@ -100,9 +100,7 @@ bool Engine::leave_limits_at_start() {
     if (slider == nullptr || slider->rests(here_->states().pieces)) continue;
     const bool high = here_->states().pieces[static_cast<std::size_t>(speed.contact)] == 2;
     const mode::RowVector& limit = frame.characteristics[speed.contact].corners[high ? 1 : 0];
-    double size = 0.0;
-    for (Eigen::Index j = 0; j < limit.size(); ++j) size += std::abs(limit[j]) * magnitude_.data()[j];
-    const double rounding = rounding_of(here_->size(), size);
+    const double rounding = rounding_of(limit, magnitude_.data());
     event::Lane8 taylor, noise;
     here_->leading(g, X_.data(), magnitude_.data(), taylor, noise);
     const double way = here_->window() * taylor[0] * taylor[0];

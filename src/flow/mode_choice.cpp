@@ -45,9 +45,7 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
   const auto piece = static_cast<std::size_t>(piece_at(system, i, X));
   const auto near = [&](std::size_t corner) {
     const mode::RowVector& row = corners[corner];
-    double size = 0.0;
-    for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
-    return std::abs(row_product(row, X)) <= 2.0 * rounding_of(static_cast<int>(row.size()), size);
+    return std::abs(row_product(row, X)) <= 2.0 * rounding_of(row, magnitude);
   };
   const auto digit = static_cast<std::int16_t>(piece);
   if (piece < corners.size() && near(piece))

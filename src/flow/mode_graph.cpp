@@ -95,6 +95,12 @@ int far_order(const mode::Mode& mode, const mode::Guard& h, const double* X, con
 
 double rounding_of(int m, double size) { return rest_factor * mode::Mode::noise_factor_of(m) * size; }
 
+double rounding_of(const mode::RowVector& row, const double* magnitude) {
+  double size = 0.0;
+  for (Eigen::Index j = 0; j < row.size(); ++j) size += std::abs(row[j]) * magnitude[j];
+  return rounding_of(static_cast<int>(row.size()), size);
+}
+
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known) {
   const mode::Guard& h = mode.guards()[guard];
   if (known == 0) {

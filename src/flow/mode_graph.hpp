@@ -46,6 +46,8 @@ inline constexpr int negative = -1;
 /// @param m     numbers of X
 /// @param size  sum of the sizes of the value's terms
 double rounding_of(int m, double size);
+/// .. of row . X
+double rounding_of(const mode::RowVector& row, const double* magnitude);
 
 /// @param known derivatives below this order are known to vanish, whatever their stored values say (after a graze: 2).
 int start_order(const mode::Mode& mode, int guard, const double* X, const double* magnitude, int known = 0);

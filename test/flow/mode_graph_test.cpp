@@ -50,6 +50,25 @@ TEST(ModeGraph,
   }
 }
 
+/// A spring hands nothing on at once, a contact does.
+TEST(ModeGraph, ContactsThatShareNoMassAreOfOtherGroups) {
+  Model m;
+  for (const char* name : {"a", "b", "c", "d"}) m.coordinates.push_back({name, 1.0});
+  for (int i = 0; i < 3; ++i) m.springs.push_back({i, i + 1, 1.0});
+  m.stops = {{"wall", 0, ground, 1.0, 0.5}};
+  m.frictions = {
+      {"on_b", 1, ground, 0.0, 1.0, 1.0}, {"b_on_c", 2, 1, 0.0, 1.0, 1.0}, {"on_a", 0, ground, 0.0, 1.0, 1.0}};
+  m.compliant_stops = {{"under_c", 2, ground, 1.0, 1.0}, {"under_d", 3, ground, 1.0, 1.0}};
+  const System system(m);
+  const auto group = [&](int contact) { return system.compiled().group(contact); };
+  EXPECT_EQ(group(3), group(0));  // on a
+  EXPECT_EQ(group(2), group(1));  // b and c
+  EXPECT_EQ(group(4), group(1));
+  EXPECT_NE(group(1), group(0));
+  EXPECT_NE(group(5), group(0));
+  EXPECT_NE(group(5), group(1));
+}
+
 /// A graze of a force: value and slope are zero, its state is not exact.
 TEST(ModeGraph, WhatIsKnownToVanishIsNotJudgedByItsRounding) {
   const System system(mass_on_a_floor_and_mass_at_a_wall(1.0));

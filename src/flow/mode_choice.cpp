@@ -54,6 +54,40 @@ Candidates piece_candidates(const CompiledSystem& system, int i, const double* X
   return {{digit}, 1};
 }
 
+constexpr int no_load = 3, loaded = -1;  ///< of a friction contact; with a load it may stick or slip
+
+/// The state of a contact behind the zero of its guard.
+/// @param digit  its state before
+int digit_behind(mode::GuardKind guard, int digit) {
+  using enum mode::GuardKind;
+  switch (guard) {
+    case press:
+    case leave:
+    case stick_below:
+      return 0;
+    case gap:
+    case slip:
+    case engage:
+    case push:
+    case beyond:
+      return 1;
+    case let_go:
+    case stick_above:
+      return 2;
+    case bound:
+      return 3;
+    case load:
+      return no_load;
+    case unloaded:
+      return loaded;
+    case corner_above:
+      return digit + 1;
+    case corner_below:
+      return digit - 1;
+  }
+  return digit;
+}
+
 }  // namespace
 
 Choice::Choice(const CompiledSystem& system, const double* X, const double* magnitude) : system_(system) {
@@ -108,6 +142,17 @@ bool Choice::next(int contact) {
   const int place = place_[system_.group(contact)];
   if (place < 0 || !next(group_[place])) join();
   return true;
+}
+
+bool Choice::go_behind(mode::GuardKind guard, int contact) {
+  const Candidates& offered = offered_[contact];
+  const int wanted = digit_behind(guard, offered.digit[choice_[contact]]);
+  for (std::int8_t k = 0; k < offered.count; ++k) {
+    if (wanted == loaded ? offered.digit[k] == no_load : offered.digit[k] != wanted) continue;
+    choice_[contact] = k;
+    return true;
+  }
+  return false;
 }
 
 /// All contacts are one group, at its first combination.

@@ -26,6 +26,9 @@ class Choice {
   [[nodiscard]] ModeId id() const;
   /// The next combination of the group of a contact. False if there is no further one.
   bool next(int contact);
+  /// The contact goes over to the state behind a guard of its own. False if that is not offered.
+  bool go_behind(mode::GuardKind guard, int contact);
+  [[nodiscard]] int contacts() const { return count_; }
   [[nodiscard]] bool only_one() const { return groups_ == 0; }
   /// Are there several groups with something to choose?
   [[nodiscard]] bool in_groups() const { return groups_ > 1; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "flow/mode_choice.hpp"
 
@@ -170,35 +171,58 @@ int piece_at(const CompiledSystem& system, int characteristic, const double* X) 
 
 namespace {
 
-/// The contact of a guard that does not fit, or -1 if all fit. Where contacts choose by themselves the lowest
-/// derivative speaks first: higher ones see more of other contacts.
-int unfit_contact(const CompiledSystem& system, const Choice& choice, const double* X, const double* magnitude,
-                  std::span<int> orders) {
-  const auto contact = [&](const mode::Guard& guard) {
-    return mode::contact_index(guard.kind, guard.contact, system.model());
+/// A guard that does not fit: its kind, and its contact among all.
+struct Unfit {
+  mode::GuardKind kind;
+  int contact;
+};
+
+/// @param in_order  of contacts that choose by themselves the lowest derivative speaks first, whether the mode is known
+///                  or not: higher ones see more of other contacts
+std::optional<Unfit> unfit_in(const CompiledSystem& system, const Choice& choice, bool in_order, const double* X,
+                              const double* magnitude, std::span<int> orders) {
+  const auto unfit = [&](const mode::Guard& guard) {
+    return Unfit{guard.kind, mode::contact_index(guard.kind, guard.contact, system.model())};
   };
   const ModeId id = choice.id();
   const mode::Mode* const known = system.known_mode(id);
-  if (known != nullptr && choice.in_groups()) {
+  if (known != nullptr && in_order) {
     const Linear mode{known->system(), known->system_size(), known->guards()};
-    if (const mode::Guard* guard = falling_guard(mode, X, magnitude)) return contact(*guard);
-  } else if (known == nullptr && (choice.in_groups() || (!system.few_modes() && !choice.only_one()))) {
+    if (const mode::Guard* guard = falling_guard(mode, X, magnitude)) return unfit(*guard);
+  } else if (known == nullptr && (in_order || (!system.few_modes() && !choice.only_one()))) {
     const auto outline = system.outline(id);
     const Linear mode{outline->system, outline->system_size, outline->guards};
-    if (const mode::Guard* guard = falling_guard(mode, X, magnitude)) return contact(*guard);
+    if (const mode::Guard* guard = falling_guard(mode, X, magnitude)) return unfit(*guard);
   }
   const mode::Guard* const guard = unfit_guard(known != nullptr ? *known : system.mode(id), X, magnitude, orders);
-  return guard != nullptr ? contact(*guard) : -1;
+  return guard != nullptr ? std::optional(unfit(*guard)) : std::nullopt;
+}
+
+/// Principal pivoting (Murty 1974): from the first combination on the contact of a guard that does not fit goes over to
+/// the state behind that guard, one after the other. Contacts that all change cost a step each, where the combinations
+/// are a power. The steps may come to no end, and of several modes that fit they do not look for the fewest changes.
+ModeId by_pivots(const CompiledSystem& system, const double* X, const double* magnitude, std::span<int> orders) {
+  Choice choice(system, X, magnitude);
+  const int most_steps = 4 * choice.contacts();
+  for (int step = 0; step < most_steps; ++step) {
+    const auto unfit = unfit_in(system, choice, true, X, magnitude, orders);
+    if (!unfit) return choice.id();
+    if (!choice.go_behind(unfit->kind, unfit->contact)) break;
+  }
+  return -1;
 }
 
 }  // namespace
 
 ModeId select_mode(const CompiledSystem& system, const double* X, const double* magnitude, std::span<int> orders) {
+  constexpr int many = 100;  // combinations; fewer give up the fewest changes, more cost time at each such instant
   Choice choice(system, X, magnitude);
-  for (;;) {
-    const int unfit = unfit_contact(system, choice, X, magnitude, orders);
-    if (unfit < 0) return choice.id();
-    if (!choice.next(unfit)) return -1;
+  for (int tries = 1;; ++tries) {
+    const auto unfit = unfit_in(system, choice, choice.in_groups(), X, magnitude, orders);
+    if (!unfit) return choice.id();
+    if (tries == many)
+      if (const ModeId found = by_pivots(system, X, magnitude, orders); found >= 0) return found;
+    if (!choice.next(unfit->contact)) return -1;
   }
 }
 

@@ -28,7 +28,8 @@
 /// chapter 5), solved by going through the combinations: first those in which one contact differs from what it prefers,
 /// then two, and so on; so a contact lets go only where it must, and a release costs as many tries as there are
 /// contacts, not as there are combinations. Each combination is tried on all sides of the lines that are being crossed
-/// before the next. Contacts that do not act on each other choose by themselves (flow/mode_choice.hpp).
+/// before the next. Contacts that do not act on each other choose by themselves (flow/mode_choice.hpp). Where many
+/// combinations have failed, contacts that do not fit go over one by one instead.
 /// Among redundant contacts one that would have to pull is left open, at rest all the same.
 /// Combinations that certainly do not fit are refused before their mode is built.
 #include <span>

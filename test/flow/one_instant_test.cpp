@@ -243,6 +243,38 @@ TEST(OneInstant, ManyEqualPadsActAsOne) {
   }
 }
 
+/// A disc between pads, which are bodies on springs: as many as wanted of a share each.
+Model disc_and_pads(int count) {
+  Model m;
+  m.omega = 0.9;
+  const double share = 1.0 / count;
+  m.coordinates = {{"disc", 2.0}};
+  m.springs = {{0, ground, 1.0}};
+  m.dampers = {{0, ground, 0.1}};
+  m.forces = {{0, 1, 2.3, 0.0}};
+  for (int i = 1; i <= count; ++i) {
+    m.coordinates.push_back({"pad" + std::to_string(i), 0.2 * share});
+    m.springs.push_back({i, ground, 1.5 * share});
+    m.dampers.push_back({i, ground, 0.05 * share});
+    m.frictions.push_back({"f" + std::to_string(i), i, 0, 0.0, 0.9 * share, 0.7 * share});
+  }
+  return m;
+}
+
+/// All act on the disc, and let go at one instant: 3^16 combinations, which were asked one after the other.
+TEST(OneInstant, ManyPadsOnOneDiscActAsOne) {
+  const std::vector<Event> of_one = events_of(disc_and_pads(1), State(4, 0.0), 10);
+  ASSERT_GT(of_one.size(), 30U);
+  for (const std::size_t count : {4, 16}) {
+    const std::vector<Event> all = events_of(disc_and_pads(static_cast<int>(count)), State(2 * count + 2, 0.0), 10);
+    ASSERT_EQ(all.size(), count * of_one.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      EXPECT_EQ(all[i].kind, of_one[i / count].kind) << i;
+      EXPECT_NEAR(all[i].time.since(of_one[i / count].time), 0.0, 1e-12) << i;
+    }
+  }
+}
+
 TEST(OneInstant, TwoEqualSpringsPassTheirCornersInTwoRows) {
   Model model = twins();
   for (const int i : {0, 1})

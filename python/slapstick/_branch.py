@@ -90,20 +90,24 @@ class Branch(Followed):
         return xr.Dataset({name: ("point", table[name].to_numpy()) for name in table}, attrs=about)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws impact speeds along the branch, stable ones solid, and marks the special points. Returns the axes."""
+        """Draws the first statistic of `y` along the branch, or without one the impact speeds. Returns the axes.
+
+        Stable orbits are solid, and special points are marked.
+        """
         ax = axes(ax)
+        name, column = next(iter(self.measured.items()), ("", np.array([])))
         for of, speeds in self._pieces():
             stable = bool(self.stable[of[0]])
             style = {"color": "0.1" if stable else "0.5", "linestyle": "-" if stable else "--", "linewidth": 1.2}
-            ax.plot(self.value[of], speeds, **style)
+            ax.plot(self.value[of], column[of] if name else speeds, **style)
         near = 0.04 * (self._core.end - self._core.begin)  # labels so close to one another are stacked
         last, height = float("-inf"), 0
         for special in sorted(self.special, key=lambda point: point.value):
             height = height + 1 if special.value - last < near else 0
             last = special.value
-            self._mark(ax, special, 5 + 10 * height)
+            self._mark(ax, special, name, 5 + 10 * height)
         ax.set_xlabel(self.parameter)
-        ax.set_ylabel("w just before the impact")
+        ax.set_ylabel(name or "w just before the impact")
         return ax
 
     def _pieces(self) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float64]]]:
@@ -121,9 +125,11 @@ class Branch(Followed):
             yield of, w[first[begin] : first[end]].reshape(end - begin, kinds[begin][1])
             begin = i
 
-    def _mark(self, ax: Any, special: SpecialPoint, above: int) -> None:
+    def _mark(self, ax: Any, special: SpecialPoint, name: str, above: int) -> None:
         events = special.orbit.events
         w = events.w[np.isin(events.kind, ("impact", "engage"))]
+        if name:
+            w = np.array([special.orbit.measure(name)[name]])
         if len(w) == 0:
             return
         colour = COLOURS.get(special.type, "#0072b2")

@@ -195,8 +195,11 @@ def model_of(model: Model | str | os.PathLike[str]) -> Model:
 
 
 def given_to(verb: Callable[..., Any], model: Model, values: Values, parameters: Values | None) -> Values:
-    """Values by keyword and those of `parameters`. Raises InputError for an option that is mistyped."""
+    """Values by keyword and those of `parameters`. Raises InputError for an option that is mistyped, or a value given twice."""
     given = values if parameters is None else {**values, **parameters}
+    for name in values:
+        if parameters is not None and name in parameters:
+            raise InputError(f"{name} is set twice")
     for name in values:
         if name not in model._names:
             refuse_option(verb, model, name)

@@ -104,9 +104,12 @@ class Motion(Result):
     complete = Given[bool]("False after Ctrl-C.")
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
-        """One number of the state, or an observable, at the samples: `motion["x1"]`, shape (k,)."""
+        """One number of the state, or an observable, at the samples: `motion["x1"]`, shape (k,). Raises InputError."""
         if name in self.observables:
             return self.observables[name]
+        if name not in self.model.state_names:
+            known = ", ".join([*self.model.state_names, *self.observables])
+            raise InputError(f"{name}: neither a number of the state nor an observable ({known})")
         column: NDArray[np.float64] = self.y[self.model.state_names.index(name)]
         return column
 

@@ -109,6 +109,7 @@ def statistics_of(
     for quantity, name in wanted:
         if not name:
             raise InputError(f"{argument}: '{quantity.name}' needs a statistic, as '{quantity.name}:rms'")
+        _core.check_statistic(quantity, name)
     return wanted
 
 

@@ -49,7 +49,12 @@ class SpecialPoint:
         return [Orbit(orbit, self.model, {}) for orbit in self._core.born]
 
     def sensitivity(self, parameter: str) -> float:
-        """d value / d parameter along which the point persists; nan where it is not known."""
+        """d value / d parameter along which the point persists; nan where it is not known.
+
+        Raises InputError for the parameter of the branch itself, and one that the model has not.
+        """
+        if parameter == self.parameter:
+            raise InputError(f"{parameter}: the point is a value of this parameter")
         return self._core.sensitivity(parameter)[0]
 
     def locus(

@@ -166,6 +166,7 @@ void bind_measures(nb::module_& module) {
              "values"_a);
   module.def("find_quantity", &find_quantity, "all"_a, "name"_a);
   module.def("usual_statistics", &usual_statistics, "quantity"_a);
+  module.def("check_statistic", &check_statistic, "quantity"_a, "name"_a);
   nb::class_<StopColumns>(module, "StopImpacts", "The impacts of a stop, each column in order of size.")
       .def_ro("stop", &StopColumns::stop)
       .def_prop_ro("w", [](StopColumns& self) { return column(self.w); })

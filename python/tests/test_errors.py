@@ -126,6 +126,19 @@ def test_what_the_command_line_refuses_is_refused(call, text):
         call()
 
 
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: slapstick.simulate("vibro-impact", omega=1, parameters={"omega": 2}), "omega is set twice"),
+        (lambda: slapstick.continuation("vibro-impact", "omega", (2, 3), omega=2.5, y="x1:mx"), "mx"),
+        (lambda: slapstick.simulate("vibro-impact", periods=1)["F_stop"], "F_stop: neither a number of the state"),
+    ],
+)
+def test_a_mistake_is_told_before_the_work(call, text):
+    with pytest.raises(slapstick.InputError, match=text):
+        call()
+
+
 def test_a_whole_number_may_be_a_float():
     assert slapstick.classify("vibro-impact", omega=1.5, most_n=8.0, transient=np.int64(400)).label == "1-1-II"
 

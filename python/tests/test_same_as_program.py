@@ -265,6 +265,10 @@ def test_branch_of_statistics_has_every_number_of_the_program(program):
         assert column.tolist() == [point["values"][name] for point in printed["points"]]
     assert set(branch.measured) == {"F_stop:mean", "a1:rms"}
     assert {"F_stop:mean", "a1:rms"} <= set(branch.to_pandas().columns)
+    ax = branch.plot()
+    assert ax.get_ylabel() == "F_stop:mean"
+    drawn = np.concatenate([line.get_ydata() for line in ax.lines if len(line.get_ydata()) > 1])
+    assert set(drawn) == set(branch.measured["F_stop:mean"])
 
 
 def test_order_map_has_the_table_of_the_program(program):

@@ -264,7 +264,7 @@ def merged(parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     return whole | {"failures": failures, "complete": all(part["complete"] for part in parts)}
 
 
-@obeys("map")
+@obeys("map", shard="")  # a shard may be kept elsewhere
 def map(  # noqa: A001 (the verb is called so)
     model: Model | str | os.PathLike[str],
     x: Axis,

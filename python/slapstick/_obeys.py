@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
 from inspect import signature
 from typing import Any, TypeVar, cast
@@ -26,28 +26,54 @@ def obeys(verb: str, least: Mapping[str, int] = {}, **called: str) -> Callable[[
     """
 
     def of(call: F) -> F:
-        takes = signature(call)
+        names = tuple(signature(call).parameters)
+        defaults = {name: parameter.default for name, parameter in signature(call).parameters.items()}
         options = {"threads": RULES["map"]["threads"]} | RULES[verb]  # of `classify` too, with arrays
-        rules = {name: options.get(called.get(name, name), {}) for name in takes.parameters if name not in NOT_THE_OPTION}
+        rules = {name: Rule(options.get(called.get(name, name), {}), least.get(name)) for name in names if name not in NOT_THE_OPTION}
 
         @wraps(call)
         def obeyed(*args: Any, **kwargs: Any) -> Any:
-            bound = takes.bind_partial(*args, **kwargs)
-            values = {name: takes.parameters[name].default for name in rules} | bound.arguments
-            given = {name for name in bound.arguments if name in rules and not same(values[name], takes.parameters[name].default)}
-            for name in sorted(given):
-                if "count" in rules[name]:
-                    bound.arguments[name] = whole(name, values[name], least.get(name, rules[name]["count"][0]), rules[name]["count"][1])
-                if values[name] not in rules[name].get("words", [values[name]]):
-                    raise InputError(f"{name} = {values[name]!r} is not one of " + ", ".join(rules[name]["words"]))
-                if "number" in rules[name]:
-                    demand_number(name, values[name], rules[name]["number"])
-                demand_company(name, rules, values, given)
-            return call(*bound.args, **bound.kwargs)
+            values = dict(zip(names, args)) | kwargs if args else kwargs
+            given = [name for name, value in values.items() if name in rules and not same(value, defaults[name])]
+            for name in given:
+                kept = rules[name].kept(name, values[name])
+                if kept is not values[name]:  # whole, and a float
+                    place = names.index(name)
+                    kwargs, args = (kwargs | {name: kept}, args) if name in kwargs else (kwargs, (*args[:place], kept, *args[place + 1 :]))
+                if rules[name].company:
+                    demand_company(name, rules, {**defaults, **values}, given)
+            return call(*args, **kwargs)
 
         return cast(F, obeyed)
 
     return of
+
+
+class Rule:
+    """What one option demands of its value, and of the other options."""
+
+    __slots__ = ("company", "count", "needs", "number", "without", "words")
+
+    def __init__(self, rule: Mapping[str, Any], least: int | None) -> None:
+        self.count: tuple[int, int] | None = rule.get("count")
+        if self.count and least is not None:
+            self.count = (least, self.count[1])
+        self.number: str | None = rule.get("number")
+        self.words: list[str] | None = rule.get("words")
+        self.without: list[tuple[str, str | None]] = rule.get("without", [])
+        self.needs: list[list[tuple[str, str | None]]] = rule.get("needs", [])
+        self.company = bool(self.without or self.needs)
+
+    def kept(self, name: str, value: Any) -> Any:
+        """The value, a count as an integer. Raises InputError."""
+        if self.count is not None:
+            least, most = self.count
+            return value if type(value) is int and least <= value <= most else whole(name, value, least, most)
+        if self.number is not None:
+            demand_number(name, value, self.number)
+        if self.words is not None and value not in self.words:
+            raise InputError(f"{name} = {value!r} is not one of " + ", ".join(self.words))
+        return value
 
 
 def same(value: Any, default: Any) -> bool:
@@ -86,16 +112,16 @@ def demand_number(name: str, value: Any, interval: str) -> None:
         raise InputError(f"{name} = {value!r} is outside {interval or '(-inf, inf)'}")
 
 
-def demand_company(name: str, rules: Mapping[str, Any], values: Mapping[str, Any], given: set[str]) -> None:
+def demand_company(name: str, rules: Mapping[str, Rule], values: Mapping[str, Any], given: Sequence[str]) -> None:
     """Raises InputError for what excludes another keyword, or needs one that is not there."""
 
     def holds(other: str, word: str | None) -> bool:
         return other in given if word is None else values[other] == word
 
-    for other, word in rules[name].get("without", ()):
+    for other, word in rules[name].without:
         if other in rules and holds(other, word):
             raise InputError(f"{name}: not with {other}" + (f" = {word!r}" if word else ""))
-    for any_of in rules[name].get("needs", ()):
+    for any_of in rules[name].needs:
         known = [(other, word) for other, word in any_of if other in rules]
         if known and not any(holds(other, word) for other, word in known):
             words = " or ".join(other + (f" = {word!r}" if word else "") for other, word in known)

@@ -82,7 +82,8 @@ void Checker::blows() {
 void Checker::blow(const Blow& blow, std::vector<bool>& found) {
   if (blow.kind == Blow::Kind::pile_up) return pile_up(blow);
   if (blow.kind == Blow::Kind::chatter) {
-    last_->rests_from = approach(blow.stops.front());
+    last_->rests_from.clear();
+    for (const int k : blow.stops) last_->rests_from.push_back(approach(k));
     return bring_to_rest(blow);
   }
   impact(blow, found);

@@ -328,12 +328,22 @@ void Reader::read_end(Segment& segment) {
     segment.end = EndKind::event;
   } else if (kind == "chatter") {
     segment.end = EndKind::chatter;
-    segment.chatter = static_cast<int>(count(0, static_cast<long>(model_.stops.size()) - 1));
+    segment.chatter = stops_in_order();
   } else if (kind != "cut") {
     fail("there is no end `" + kind.substr(0, 40) + "`");
   }
   finish_line(), advance();
   read_what_happens(segment);
+}
+
+/// The rest of a line.
+std::vector<int> Reader::stops_in_order() {
+  std::vector<int> stops;
+  do {
+    const long least = stops.empty() ? 0 : stops.back() + 1;
+    stops.push_back(static_cast<int>(count(least, static_cast<long>(model_.stops.size()) - 1)));
+  } while (next_word_ < words_.size());
+  return stops;
 }
 
 void Reader::read_what_happens(Segment& segment) {
@@ -346,11 +356,7 @@ void Reader::read_what_happens(Segment& segment) {
       continue;
     }
     Blow blow{line_, at("blow") ? Kind::impact : at("pile-up") ? Kind::pile_up : Kind::chatter, {}};
-    do {
-      const long least = blow.stops.empty() ? 0 : blow.stops.back() + 1;
-      blow.stops.push_back(static_cast<int>(count(least, stops - 1)));
-    } while (next_word_ < words_.size());
-    if (blow.kind == Kind::chatter && blow.stops.size() != 1) fail("one stop chatters, not several");
+    blow.stops = stops_in_order();
     segment.blows.push_back(blow);
   }
 }

@@ -148,7 +148,7 @@ struct Segment {
   std::vector<double> p, u;
   EndKind end = EndKind::cut;
   long end_line = 0;
-  int chatter = -1;  ///< the stop
+  std::vector<int> chatter;  ///< the stops
   std::vector<Blow> blows;
   std::vector<Impact> impacts;
 };
@@ -206,6 +206,7 @@ class Reader {
   void read_start();
   ContactStates contact_states();
   void read_end(Segment& segment);
+  [[nodiscard]] std::vector<int> stops_in_order();
   void read_what_happens(Segment& segment);
   void read_done();
 

@@ -54,7 +54,7 @@ void Checker::begin(const Segment& segment) {
   } else {
     cut_ = last_->segment.end == EndKind::cut;
     if (!last_->segment.blows.empty() && last_->segment.blows.back().kind == Blow::Kind::chatter &&
-        segment.chatter != last_->segment.blows.back().stops.front())
+        segment.chatter != last_->segment.blows.back().stops)
       refuse_(last_->segment.blows.back().line, "a stop is brought to rest by a chatter that nothing proves");
     const bool same_mode = last_->segment.states == segment.states;
     if (cut_ && !same_mode) refuse_(segment.line, "the mode has changed at `end cut`");
@@ -278,13 +278,10 @@ void Checker::unanswered(const Segment& next) {
   }
 }
 
-/// The states of the closed segment, but the stop open and friction on its own pair slipping: 1 away from the stop, -1
-/// back, 0 held.
-ContactStates Checker::with_pair(const Segment& segment, int direction) const {
-  ContactStates states = segment.states;
-  const auto stop = static_cast<std::size_t>(segment.chatter);
-  const Place& place = m_.stop(stop);
-  states.closed[stop] = false;
+/// With a stop open and friction on its own pair slipping: 1 away from the stop, -1 back, 0 held.
+ContactStates Checker::with_pair(ContactStates states, int stop, int direction) const {
+  const Place& place = m_.stop(static_cast<std::size_t>(stop));
+  states.closed[static_cast<std::size_t>(stop)] = false;
   for (std::size_t i = 0; i < states.slip.size(); ++i) {
     const Place& friction = m_.friction(i);
     const double same = m_.parallel(friction.own, place.own) * place.sign * friction.sign;
@@ -295,20 +292,60 @@ ContactStates Checker::with_pair(const Segment& segment, int direction) const {
   return states;
 }
 
-/// A segment on the closed stop that stands for infinitely many impacts.
+/// Every course of every stop beside every one of the others, from the states of the closed segment.
+Limit::Modes Checker::ways(const Segment& segment) {
+  using Course = Limit::Course;
+  struct States {
+    ContactStates states;
+    std::vector<Course> courses = {};
+  };
+  std::vector<States> all{{segment.states}}, next;
+  for (const int stop : segment.chatter) {
+    next.clear();
+    for (const States& one : all)
+      for (const Course course : {Course::leaves, Course::returns, Course::rests}) {
+        const int direction = course == Course::leaves ? 1 : -1;
+        next.push_back({course == Course::rests ? one.states : with_pair(one.states, stop, direction), one.courses});
+        next.back().courses.push_back(course);
+      }
+    all.swap(next);
+  }
+  Limit::Modes modes{{}, {}, flown(segment.states)};
+  for (const States& one : all) {
+    const bool at_limit = std::count(one.courses.begin(), one.courses.end(), Course::rests) ==
+                          static_cast<std::ptrdiff_t>(one.courses.size());
+    if (!at_limit) modes.ways.push_back({&flown(one.states), one.courses});
+    for (std::size_t k = 0; k < one.courses.size(); ++k) {
+      const ContactStates held = with_pair(one.states, segment.chatter[k], 0);
+      if (one.courses[k] == Course::leaves && held != one.states) modes.holds.push_back({&flown(held), k});
+    }
+  }
+  return modes;
+}
+
+std::string Checker::names(const std::vector<int>& stops) const {
+  std::string text;
+  for (const int stop : stops) text += (text.empty() ? "" : ", ") + name(stop);
+  return (stops.size() == 1 ? "stop " : "stops ") + text;
+}
+
+/// A segment on the closed stops that stands for infinitely many impacts.
 void Checker::chatter(const Segment& segment, const std::vector<double>& sizes) {
+  constexpr std::size_t most = 5;  // each has three courses, and each of their combinations is a mode
   ++tally_.chatters;
-  const auto stop = static_cast<std::size_t>(segment.chatter);
-  const std::vector<int> itself{segment.chatter};
   if (last_ == nullptr || last_->segment.blows.empty() || last_->segment.blows.back().kind != Blow::Kind::chatter ||
-      last_->segment.blows.back().stops != itself)
-    return refuse_(segment.end_line, "the segment before has not brought stop " + name(segment.chatter) + " to rest");
-  if (!flown(segment.states).mode.held[m_.stop(stop).own] || segment.u[m_.stop(stop).own] != 0.0 ||
-      segment.p[m_.stop(stop).own] != 0.0)
-    return refuse_(segment.end_line, "stop " + name(segment.chatter) + " is not at rest at the limit of its chatter");
-  const Limit::Modes modes{flown(with_pair(segment, 1)), flown(with_pair(segment, -1)), flown(with_pair(segment, 0)),
-                           flown(segment.states)};
-  Limit limit(m_, segment, modes, m_.extended(segment.p, segment.u, segment.start), -last_->rests_from, refuse_);
+      last_->segment.blows.back().stops != segment.chatter)
+    return refuse_(segment.end_line, "the segment before has not brought " + names(segment.chatter) + " to rest");
+  if (segment.chatter.size() > most)
+    return refuse_(segment.end_line, "more than " + std::to_string(most) + " stops chatter together");
+  for (const int stop : segment.chatter) {
+    const std::size_t own = p(stop);
+    if (!flown(segment.states).mode.held[own] || segment.u[own] != 0.0 || segment.p[own] != 0.0)
+      return refuse_(segment.end_line, "stop " + name(stop) + " is not at rest at the limit of its chatter");
+  }
+  Balls speeds;
+  for (const Ball& w : last_->rests_from) speeds.push_back(-w);
+  Limit limit(m_, segment, ways(segment), m_.extended(segment.p, segment.u, segment.start), speeds, refuse_);
   tally_.limit_error = std::max(tally_.limit_error, limit.check(sizes) / period_);
 }
 

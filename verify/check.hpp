@@ -53,7 +53,7 @@ class Checker {
     std::vector<double> size;
     std::vector<bool> touches = {};  ///< stops whose gap is zero
     std::vector<bool> struck = {};   ///< stops that had an impulse
-    Ball rests_from = {};            ///< velocity towards the stop that a chatter has brought to rest
+    Balls rests_from = {};           ///< velocities towards the stops that a chatter has brought to rest
   };
   /// Impacts of one instant.
   struct Instant {
@@ -80,7 +80,9 @@ class Checker {
   void ends(const Segment& segment, const Flight& flight, const FlownMode& mode);
   void unanswered(const Segment& next);
   void chatter(const Segment& segment, const std::vector<double>& sizes);
-  [[nodiscard]] ContactStates with_pair(const Segment& segment, int direction) const;
+  [[nodiscard]] ContactStates with_pair(ContactStates states, int stop, int direction) const;
+  [[nodiscard]] Limit::Modes ways(const Segment& segment);
+  [[nodiscard]] std::string names(const std::vector<int>& stops) const;
 
   // blows.cpp
   void blows();

@@ -2,21 +2,35 @@
 /// The limit of a complete chatter: that infinitely many impacts follow, when they end, and in which state
 /// (docs/developers/proofs.md, section 8).
 ///
-/// S is the state at rest on the stop, v the speed at which the pair leaves it, w the pair's velocity towards the stop.
+/// Several stops that the inertia does not couple may chatter from one instant on, as in equal machines.
+///
+/// S is the state at rest on the stops, v the speed at which a pair leaves its stop, w the pair's velocity towards it.
 /// An impact changes velocities by b dw, b the column of the inertia that belongs to the stop, divided by its own
-/// entry. What is left of a mode's A without b times the row of w is N: Z - b w changes at the rate N Z, and jumps at
-/// no impact. The pair leaves the stop in the mode `rise` and returns in the mode `back`; without friction on the pair
-/// they are one. In the mode `hold` friction would hold the pair off the stop.
+/// entry. What is left of a mode's A without b times the row of w, of each stop, is N: Z - sum of b w changes at the
+/// rate N Z, and jumps at no impact. A pair leaves its stop in a mode `leaves` and returns in `returns`, which are one
+/// without friction on it; at its limit it `rests`. A *way* is a mode with each of them in one of these courses.
 #include "flight.hpp"
 
 namespace verify {
 
 class Limit {
  public:
-  struct Modes {
-    const FlownMode &rise, &back, &hold, &closed;
+  enum class Course { leaves, returns, rests };
+  struct Way {
+    const FlownMode* mode;
+    std::vector<Course> courses;  ///< of each stop that chatters
   };
-  Limit(const Mechanics& mechanics, const Segment& segment, const Modes& modes, Balls S, Ball v, const Refuse& refuse);
+  /// A way with friction holding one pair, the k-th, off its stop.
+  struct Hold {
+    const FlownMode* mode;
+    std::size_t k;
+  };
+  struct Modes {
+    std::vector<Way> ways;
+    std::vector<Hold> holds;
+    const FlownMode& closed;
+  };
+  Limit(const Mechanics& mechanics, const Segment& segment, Modes modes, Balls S, const Balls& v, const Refuse& refuse);
   /// @param sizes  that the state's allowance is made of
   /// @returns by how much DURATION may be off, in time units
   double check(const std::vector<double>& sizes);
@@ -25,31 +39,39 @@ class Limit {
   struct Range {
     Ball least, most;
   };
+  struct Stop {
+    std::size_t stop;
+    Place place;
+    std::size_t u;
+    Ball v;
+    Balls b;
+    Range rise = {}, back = {};  ///< accelerations towards the stop
+    [[nodiscard]] Ball faster() const { return back.most / rise.least; }
+  };
+  [[nodiscard]] bool uncoupled() const;
   void set_quiet_part();
+  [[nodiscard]] Balls jump(const std::vector<Ball>& ratios) const;
   bool enclose();
-  [[nodiscard]] Range acceleration(const FlownMode& mode) const;
-  void conditions(const FlownMode& mode, const char* way) const;
+  void accelerations();
+  void conditions() const;
   void other_stops() const;
-  double time() const;
+  [[nodiscard]] double time(const Stop& stop) const;
   void state(const std::vector<double>& sizes) const;
   void holds_not() const;
-  [[nodiscard]] bool of_pair(const Condition& condition) const;
+  [[nodiscard]] bool chatters(std::size_t stop) const;
+  [[nodiscard]] bool in_a_way(const Condition& condition) const;
   void refuse(const std::string& what) const { refuse_(segment_.end_line, what); }
 
   const Mechanics& m_;
   const Segment& segment_;
   Modes modes_;
-  std::size_t stop_;
-  Place place_;
-  std::size_t u_;
-  Ball v_;
   const Refuse& refuse_;
-  Balls b_, S_, size_;  ///< size_: |S|
-  Matrix N_;            ///< the greatest |N| of the modes, entry by entry
-  Matrix more_;         ///< the greatest |N - A of the closed mode|
-  Ball D_;              ///< the chatter lasts no longer
-  Balls delta_;         ///< |Z - S| is no more
-  Range rise_, back_;   ///< accelerations towards the stop
+  std::vector<Stop> stops_;
+  Balls S_, size_;  ///< size_: |S|
+  Matrix N_;        ///< the greatest |N| of the modes, entry by entry
+  Matrix more_;     ///< the greatest |N - A of the closed mode|
+  Ball D_;          ///< the chatter lasts no longer
+  Balls delta_;     ///< |Z - S| is no more
 };
 
 }  // namespace verify

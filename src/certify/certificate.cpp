@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/set_bits.hpp"
 #include "certify/stated_model.hpp"
 #include "flow/engine.hpp"
 #include "flow/mode_graph.hpp"
@@ -22,6 +23,7 @@ class Certificate::Writer {
   static constexpr double windows_per_piece = 8.0;
 
   void segment(bool ended_by_event);
+  [[nodiscard]] static std::string stops_of(std::uint32_t set);
   void blows();
   void line(const char* word, const std::string& rest) { text_ += word + rest + "\n"; }
   void hand_over();
@@ -81,27 +83,30 @@ void Certificate::Writer::run(Instant end, const std::function<bool(Instant)>& g
 /// of the segment before says it.
 void Certificate::Writer::segment(bool ended_by_event) {
   const Motion::Segment segment = motion_.segment();
-  const bool chatter = ended_by_event && motion_.event().kind == EventKind::chatter && engine_.hits().empty();
-  if (chatter) line("chatter", number(motion_.event().contact));
+  const std::string chatter = stops_of(engine_.chattered());
+  if (!chatter.empty()) line("chatter", chatter);
   line("segment", number(tally_.segments++) + clock(segment.start) + hex(segment.duration) +
                       stated_contacts(system_.states(segment.mode)));
   line("state", mechanical(engine_.extended_at_start()));
-  if (chatter)
-    line("end chatter", number(motion_.event().contact));
+  if (!chatter.empty())
+    line("end chatter", chatter);
   else
     line(ended_by_event && !engine_.hits().empty() ? "end event" : "end cut", "");
-  tally_.chatters += chatter ? 1 : 0;
+  tally_.chatters += chatter.empty() ? 0 : 1;
   tally_.unproved += motion_.counters().shaken - shaken_;
   shaken_ = motion_.counters().shaken;
   blows();
 }
 
+std::string Certificate::Writer::stops_of(std::uint32_t set) {
+  std::string text;
+  for (const int stop : set_bits(set)) text += number(stop);
+  return text;
+}
+
 void Certificate::Writer::blows() {
   for (const Motion::Strike& strike : motion_.strikes()) {
-    std::string stops;
-    for (int stop = 0; stop < static_cast<int>(system_.frame().stops.size()); ++stop)
-      if ((strike.stops >> stop & 1U) != 0) stops += number(stop);
-    line(strike.to_rest ? "pile-up" : "blow", stops);
+    line(strike.to_rest ? "pile-up" : "blow", stops_of(strike.stops));
     tally_.unproved += strike.to_rest ? 1 : 0;
   }
 }

@@ -2,6 +2,7 @@
 #include "change/onset_orbit.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -46,6 +47,7 @@ class Bounce {
     rest.lines = lines_;
     rest.ending = Ending::onset;
     rest.contact = stop_;
+    rest.chattering = std::uint32_t{1} << stop_;
     const Jet X = leg_start(set_, rest, x, t);
     const ModeRates &flight = set_.mode(flight_), &closed = set_.mode(closed_);
     const RowVectorXd pressing = row_.sign * flight.outline.system.row(velocity());
@@ -155,6 +157,7 @@ Orbit cut_off(const ModeSet& set, Orbit orbit, int stop, const Approach& approac
   rest.states = bounce.closed();
   rest.ending = Ending::onset;
   rest.kind = mode::GuardKind::press;
+  rest.chattering = std::uint32_t{1} << stop;
   rest.strikes.clear();
   rest.event = EventKind::release;
   const auto numbers = bounce.numbers(orbit.x[keep], orbit.t[keep]);
@@ -243,7 +246,7 @@ std::optional<int> chattering_stop(const Orbit& orbit) {
   std::optional<int> stop;
   for (const Leg& leg : orbit.shape.legs) {
     if (leg.ending != Ending::chatter) continue;
-    if (stop) return std::nullopt;
+    if (stop || std::popcount(leg.chattering) > 1) return std::nullopt;
     stop = leg.contact;
   }
   return stop;

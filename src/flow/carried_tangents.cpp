@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/ranges.hpp"
+#include "base/set_bits.hpp"
 #include "flow/collision.hpp"
 #include "flow/engine.hpp"
 #include "flow/saltation.hpp"
@@ -24,10 +25,10 @@ void CarriedTangents::begin(const Engine& engine) {
 void CarriedTangents::follow(const Engine& engine, Outcome outcome) {
   if (engine.counters().segments == segments_seen_) return;  // a further event at the same instant
   segments_seen_ = engine.counters().segments;
-  const bool chatter = outcome == Outcome::event && engine.event().kind == EventKind::chatter;
-  if (chatter) {  // from the last impact to the limit: momentum is kept, the gap and its rate are lost
+  if (engine.chattered() != 0) {  // from the last impacts to the limit: momentum is kept, gaps and their rates are lost
     const mode::Frame& frame = system_->frame();
-    const std::vector<int> own = {frame.stops[engine.event().contact].own};
+    std::vector<int> own;
+    for (const int stop : set_bits(engine.chattered())) own.push_back(frame.stops[stop].own);
     hold(own, frame.d);
     hold(own, 0);
   }

@@ -24,6 +24,10 @@
 /// A characteristic whose force is continuous may pass a corner: its force changes by no more than its steepest piece
 /// makes of Delta.
 ///
+/// Several stops that are struck at one instant and do not act on each other, as those of equal machines, are proven
+/// together. Delta then has the impulses of all of them, D is the longest of theirs, and each has its own R, rho and T:
+/// one limit is told if the enclosures of all of them lie within its error.
+///
 /// Source: docs/developers/proofs.md; Nordmark and Piiroinen (2009), Budd and Dux (1994).
 #include <cmath>
 #include <span>
@@ -34,7 +38,7 @@ namespace slapstick::flow {
 
 struct ChatterLimit {
   bool proven = false;
-  double duration = 0.0;  ///< time from the impact to the limit
+  double duration = 0.0;  ///< time from the impact to the limit, of several stops to the last
   double error = 0.0;     ///< bound on the error of `duration`
   /// its impacts may move a friction contact of another pair through its rest, a load through zero or a characteristic
   /// past a corner: any force is allowed for, and events of these are not told
@@ -50,7 +54,8 @@ struct ChatterLimit {
                                double tolerance);
 
 /// @param here the mode of the flight that begins at X
-/// @param X extended state just after an impact of `stop` (gap = 0, separating).
+/// @param stops just struck, none of which acts on another
+/// @param X extended state just after the impacts of `stops` (gap = 0, separating).
 /// @param tolerance largest acceptable error of the limit time, in time units.
 /// @param scratch at least 4 m doubles.
 /// @returns proven = false if chatter is not complete, or not provable from this impact on, or its limit not yet
@@ -58,7 +63,7 @@ struct ChatterLimit {
 ///          to `tolerance`: the caller goes on bounce by bounce and asks again. Cost: one row product when the chatter
 ///          is still too high to be summed, else four products with |A|; up to 4 d where its impacts reach
 ///          bodies at rest through chains.
-ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, int stop, const double* X,
-                           double tolerance, std::span<double> scratch);
+ChatterLimit prove_chatter(const CompiledSystem& system, const mode::Mode& here, std::span<const int> stops,
+                           const double* X, double tolerance, std::span<double> scratch);
 
 }  // namespace slapstick::flow

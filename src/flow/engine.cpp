@@ -37,6 +37,7 @@ Engine::Engine(const CompiledSystem& system, std::span<const double> coordinates
 void Engine::reserve() {
   const int guards = system_->most_guards();
   touching_.reserve(stops());
+  bouncing_.reserve(stops());
   pending_.reserve(64 + 4 * guards);
   later_before_.reserve(16 * X_.span().size());
   hits_.reserve(guards);
@@ -55,7 +56,7 @@ void Engine::restart(std::span<const double> coordinates, Instant start) {
   strikes_.clear();
   pending_.clear();
   later_before_.clear();
-  chatter_stop_ = -1;
+  bouncing_.clear();
   budget_period_ = now_.period;
   budget_events_ = 0;
   std::copy(coordinates.begin(), coordinates.end(), X_.data());
@@ -96,6 +97,7 @@ void Engine::begin_segment() {
   Flight::begin_segment();
   hits_.clear();
   strikes_.clear();
+  chattered_ = 0;
 }
 
 std::span<const double> Engine::extended_of_event() const {
@@ -140,7 +142,7 @@ Outcome Engine::advance(Instant end) {
   pending_.clear();
   later_before_.clear();
   shown_ = 0;
-  if (chatter_stop_ >= 0 && !place_.moved && end_chatter(limit)) return Outcome::event;
+  if (!bouncing_.empty() && !place_.moved && end_chatter(limit)) return Outcome::event;
   begin_segment();
   while (const auto found = fly(stage)) {
     handle(found->guard, found->kind == event::RootKind::graze);

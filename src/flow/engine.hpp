@@ -43,6 +43,8 @@ class Engine : public Flight {
   /// The same and those that were zero at that instant too, as indices of that mode's guards.
   [[nodiscard]] std::span<const int> hits() const { return hits_; }
   [[nodiscard]] std::span<const Motion::Strike> strikes() const { return strikes_; }
+  /// The stops whose complete chatter the last segment sums, bit by bit.
+  [[nodiscard]] std::uint32_t chattered() const { return chattered_; }
 
  private:
   enum class Cause { start, impact, graze, reversal, force, compliant /* and characteristic */ };
@@ -61,13 +63,17 @@ class Engine : public Flight {
   void set_gap_zero(const mode::ContactRow& contact);
   void set_force_zero(int compliant);
   void gather_ties(int guard);
+  [[nodiscard]] bool has_passed(int guard) const;
   void leave_touched_limits();
   bool leave_limits_at_start();
   [[nodiscard]] bool only_touches(int guard, double rounding) const;
+  [[nodiscard]] std::optional<double> way_to_wall(int guard, double rounding) const;
   [[nodiscard]] bool turns_with(const mode::Guard& corner, const mode::Guard& slip) const;
   [[nodiscard]] int of_pair(int guard) const;
   [[nodiscard]] bool of_one_pair(const mode::Guard& a, const mode::Guard& b) const;
-  [[nodiscard]] bool tail_is_quiet(int stop, double duration);
+  [[nodiscard]] bool tail_is_quiet(double duration);
+  [[nodiscard]] bool is_shaken(const mode::Guard& guard) const;
+  void bring_chatter_to_rest(Extended& X) const;
   [[nodiscard]] std::span<const int> touching();
   [[nodiscard]] int approaching() const;
   void newton(int stop);
@@ -111,7 +117,8 @@ class Engine : public Flight {
 
   MotionOptions options_;
   Instant knot_ = mode::SignalTable::never;  ///< the next one of a signal
-  int chatter_stop_ = -1;                    ///< the stop just hit, whose chatter may be complete
+  std::vector<int> bouncing_;                ///< stops just hit, whose chatter may be complete
+  std::uint32_t chattered_ = 0;
   Extended X_before_;
   std::vector<double> scratch_;   ///< of the proof of a chatter
   std::vector<int> tail_orders_;  ///< of the guards' zeros at the start of a chatter's tail

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/ranges.hpp"
 #include "flow/changes.hpp"
 #include "flow/chatter.hpp"
 #include "flow/engine.hpp"
@@ -81,7 +82,7 @@ void Engine::force_limit(int guard, int contact, bool graze) {
   if (touched == negative) return choose_next_mode(Cause::force);
   for (int g = 0; g < mode.guard_count(); ++g) orders_[g] = start_order(mode, g, X_.data(), magnitude_.data());
   orders_[guard] = touched;
-  chatter_stop_ = -1;
+  bouncing_.clear();
   begin_flight();
 }
 
@@ -154,7 +155,7 @@ void Engine::choose_next_mode(Cause cause, std::optional<ReportedEvent> reported
   const ModeId ended = mode_;
   const double flown = elapsed_;
   start_mode();
-  if (cause != Cause::impact && cause != Cause::start) chatter_stop_ = -1;
+  if (cause != Cause::impact && cause != Cause::start) bouncing_.clear();
   const bool released = reported && reported->kind == EventKind::release;
   if (released && mode_ == ended && pending_.empty() && !at_instant_.held) return postpone_release(flown);
   report_changes(cause, reported, old);
@@ -174,7 +175,7 @@ void Engine::go_on() {
   const double flown = elapsed_;
   note_magnitude(X_);
   for (int g = 0; g < here_->guard_count(); ++g) orders_[g] = start_order(*here_, g, X_.data(), magnitude_.data());
-  chatter_stop_ = -1;
+  bouncing_.clear();
   begin_flight();
   spend_budget();
   segment_begun_ -= flown;
@@ -220,62 +221,74 @@ double Engine::value_of(const mode::RowVector& row) const {
   return value;
 }
 
-/// Replaces a proven complete chatter, from the impact at which the flight began, by its limit if that is known sharply
-/// enough and comes within `limit` of the impact. A cut before the limit leaves the question to the next call.
+/// Replaces proven complete chatters, from the impacts at which the flight began, by their limit if that is known
+/// sharply enough and comes within `limit` of the impacts. A cut before the limit leaves the question to the next call.
 bool Engine::end_chatter(double limit) {
-  const int stop = chatter_stop_;
-  const ChatterLimit chatter =
-      prove_chatter(*system_, *here_, stop, X_window_.data(), options_.chatter_tolerance * system_->period(), scratch_);
+  const double tolerance = options_.chatter_tolerance * system_->period();
+  std::erase_if(bouncing_, [&](int s) { return !slow_enough(*system_, *here_, s, X_window_.data(), tolerance); });
+  if (bouncing_.empty()) return false;
+  const ChatterLimit chatter = prove_chatter(*system_, *here_, bouncing_, X_window_.data(), tolerance, scratch_);
   if (!chatter.proven || place_.windows > 0 || chatter.duration > 0.5 * here_->window()) {
-    chatter_stop_ = -1;
+    bouncing_.clear();
     return false;
   }
   if (chatter.duration > limit) return false;
-  if (!tail_is_quiet(stop, chatter.duration)) {
-    chatter_stop_ = -1;
+  if (!tail_is_quiet(chatter.duration)) {
+    bouncing_.clear();
     return false;
   }
 
-  // The pair's momentum does not see the impacts: flow the closed stop from the velocity after a fully plastic impact.
+  // A pair's momentum does not see the impacts: flow the closed stop from the velocity after a fully plastic impact.
   const double begun = elapsed_;
   const Instant impact = place_.start;
   const mode::Frame& frame = system_->frame();
   X_ = X_window_;
-  strike(*system_, stop, 0.0, X_.data());
+  bring_chatter_to_rest(X_);
   start_mode();
   place_.start = impact;
   const double H = here_->window();
   look(begun / H);
   frame.set_clock(now_, X_.data());
   begin_segment();
+  for (const int stop : bouncing_) chattered_ |= std::uint32_t{1} << stop;
   arrive(chatter.duration / H);
   X_before_ = X_;
-  report(EventKind::chatter, stop, 0.0);
+  for (const int stop : bouncing_) {
+    report(EventKind::chatter, stop, 0.0);
+    pending_.back().error = chatter.error;
+  }
   counters_.shaken += chatter.shaken ? 1 : 0;
-  pending_.back().error = chatter.error;
   choose_next_mode(Cause::force);
   return true;
 }
 
-bool Engine::may_chatter() const {
-  return chatter_stop_ >= 0 &&
-         slow_enough(*system_, *here_, chatter_stop_, X_.data(), options_.chatter_tolerance * system_->period());
+void Engine::bring_chatter_to_rest(Extended& X) const {
+  for (const int stop : bouncing_) strike(*system_, stop, 0.0, X.data());
 }
 
-/// True if no other contact has its event between the last impact and the limit of a chatter, which is flown with the
-/// stop closed. Friction that the impacts shake is not asked: the proof of the chatter allows it any force.
-bool Engine::tail_is_quiet(int stop, double duration) {
+bool Engine::may_chatter() const {
+  const double tolerance = options_.chatter_tolerance * system_->period();
+  return ranges::any_of(bouncing_, [&](int s) { return slow_enough(*system_, *here_, s, X_.data(), tolerance); });
+}
+
+/// Is it of friction that the impacts of a chatter shake?
+bool Engine::is_shaken(const mode::Guard& guard) const {
+  if (!of_friction(guard.kind)) return false;
+  return ranges::any_of(bouncing_, [&](int s) { return system_->coupling(s, guard.contact).effect != 0.0; });
+}
+
+/// True if no other contact has its event between the last impacts and the limit of a chatter, which is flown with its
+/// stops closed. Friction that the impacts shake is not asked: the proof of the chatter allows it any force.
+bool Engine::tail_is_quiet(double duration) {
   X_next_ = X_window_;
-  strike(*system_, stop, 0.0, X_next_.data());
+  bring_chatter_to_rest(X_next_);
   note_magnitude(X_next_);
   std::vector<int>& orders = tail_orders_;
   const ModeId id = select_mode(*system_, X_next_.data(), magnitude_.data(), orders);
   bool quiet = id >= 0;
   const mode::Mode& closed = quiet ? system_->mode(id) : *here_;
   for (int g = 0; quiet && g < closed.guard_count(); ++g) {
-    const mode::Guard& guard = closed.guards()[g];
-    const bool shaken = of_friction(guard.kind) && system_->coupling(stop, guard.contact).effect != 0.0;
-    if (orders[g] == never || shaken) continue;
+    if (orders[g] == never || is_shaken(closed.guards()[g])) continue;
     event::GuardWindow window;
     closed.enclose(g, orders[g], X_next_.data(), magnitude_.data(), window.hull);
     closed.taylor(g, orders[g], X_next_.data(), window.taylor);

@@ -37,25 +37,31 @@ int Engine::approaching() const {
 /// All impacts of this instant, by the model's law, until no stop in contact is approaching: the end of a pile-up may
 /// leave others that do.
 void Engine::strike_all() {
-  chatter_stop_ = -1;
-  int rounds = 0;
-  for (int stop = approaching(); stop >= 0; stop = approaching(), ++rounds) {
+  std::uint32_t struck = 0;
+  bool piled_up = false;
+  for (int stop = approaching(); stop >= 0; stop = approaching()) {
     const double speed = approach_velocity(*system_, stop, X_.data());
     at_instant_.fastest = std::max(at_instant_.fastest, speed);
     if (speed < slow_impacts * at_instant_.fastest || at_instant_.events > most_impacts_at_one_instant) {
       end_pile_up();
-      chatter_stop_ = -1;
+      piled_up = true;
       continue;
     }
-    if (piles_up_again(stop)) continue;
+    if (piles_up_again(stop)) {
+      piled_up = true;
+      continue;
+    }
     if (touching().size() == 1 || system_->model().impact_law == ImpactLaw::sequence)
       newton(stop);
     else
       moreau(touching_);
+    struck |= strikes_.back().stops;
     at_instant_.struck |= strikes_.back().stops;
     at_instant_.pile_ups.strike(strikes_.back().stops);
-    chatter_stop_ = rounds == 0 && system_->model().stops[stop].restitution > 0.0 ? stop : -1;
   }
+  bouncing_.clear();
+  for (int s = 0; s < stops() && !piled_up; ++s)
+    if ((struck >> s & 1U) != 0 && system_->model().stops[s].restitution > 0.0) bouncing_.push_back(s);
 }
 
 /// Stops that chatter against each other, where no proof of completeness is at hand, are brought to rest once their
@@ -102,7 +108,6 @@ bool Engine::piles_up_again(int stop) {
   for (int s = 0; s < stops(); ++s)
     if ((set >> s & 1U) != 0) touching_.push_back(s);
   bring_together(touching_);
-  chatter_stop_ = -1;
   spend_budget();
   return true;
 }

@@ -68,13 +68,11 @@ void hold_gaps(const ModeSet& set, const Leg& next, const Jet& X, Jet& x) {
 
 }  // namespace
 
-bool sums_impacts(const Leg& leg) { return leg.ending == Ending::chatter || leg.ending == Ending::onset; }
-
 Jet contact_jet(const ModeSet& set, const Leg& next, const Jet& X) {
   const mode::Frame& frame = set.frame();
   Jet x(2 * frame.n, X.states, X.parameters);
   x.all << X.all.topRows(frame.n), X.all.middleRows(frame.d, frame.n);
-  if (sums_impacts(next)) return x;
+  if (next.chattering != 0) return x;  // begins with plastic impacts
   hold_velocities(set, next, X, x);
   hold_gaps(set, next, X, x);
   return x;

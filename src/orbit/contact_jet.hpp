@@ -7,9 +7,6 @@
 
 namespace slapstick::orbit {
 
-/// Does it begin with a plastic impact that stands for all impacts of a chatter that follow?
-[[nodiscard]] bool sums_impacts(const Leg& leg);
-
 /// Of an extended jet. Held are velocities, zero or a belt's, and the gaps of closed stops, zero. Contacts whose number
 /// is not among the first n are held by what is least to change of the others.
 /// @param next  the leg that begins

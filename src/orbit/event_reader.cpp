@@ -1,6 +1,7 @@
 /// Reads the events of a motion as the ends of an orbit's legs.
 #include "orbit/event_reader.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "base/ranges.hpp"
@@ -87,6 +88,15 @@ bool may_rest(const flow::CompiledSystem& system, const mode::Guard& guard) {
   return holds && may_be_drawn_along(system.model().frictions[static_cast<std::size_t>(guard.contact)]);
 }
 
+/// The limit of a complete chatter, or a pile-up by its first stop.
+void end_by_chatter(const flow::Engine& engine, Leg& leg) {
+  leg.ending = Ending::chatter;
+  const std::uint32_t named = std::uint32_t{1} << static_cast<unsigned>(leg.contact);
+  leg.chattering = engine.chattered() != 0 ? engine.chattered() : named;
+  leg.contact = std::bit_width(leg.chattering) - 1;  // of the impacts before, each a leg, its is the last
+  leg.strikes.assign(engine.strikes().begin(), engine.strikes().end());
+}
+
 /// What the end of a leg is called: by the event of its contact, else by the first of the instant.
 void name_end(const Motion& motion, const mode::Guard& guard, Leg& leg) {
   const auto events = motion.engine().events_of_instant();
@@ -112,8 +122,7 @@ void EventReader::read() {
   const double t = motion_.event().time.since({zero_, 0.0});
   const VectorXd last = flow::contact_state(motion_);
   if (leg.event == EventKind::chatter) {
-    leg.strikes.assign(motion_.strikes().begin(), motion_.strikes().end());
-    leg.ending = Ending::chatter;
+    end_by_chatter(engine, leg);
     read_.push_back({leg, t, last});
     return;
   }

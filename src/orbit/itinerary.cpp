@@ -13,7 +13,7 @@ bool same_end(const Leg& a, const Leg& b) {
   };
   const bool cut = a.ending == Ending::cut, has_guard = !cut && a.ending != Ending::knot;
   return a.ending == b.ending && (!has_guard || a.kind == b.kind) && (cut || a.contact == b.contact) &&
-         ranges::equal(a.strikes, b.strikes, same_strike);
+         a.chattering == b.chattering && ranges::equal(a.strikes, b.strikes, same_strike);
 }
 
 bool operator==(const Leg& a, const Leg& b) { return a.states == b.states && a.lines == b.lines && same_end(a, b); }

@@ -227,7 +227,7 @@ VectorXd behind_pulses(const ModeSet& set, const Leg& leg, VectorXd X) {
 Jet leg_start(const ModeSet& set, const Leg& leg, const VectorXd& x, double t_begin) {
   Jet X = extended(set, leg.lines, x, t_begin);
   set_slider_rates(set.frame(), leg, X);
-  if (sums_impacts(leg)) push(set, {std::uint32_t{1} << static_cast<unsigned>(leg.contact), true}, X);
+  if (leg.chattering != 0) push(set, {leg.chattering, true}, X);
   return X;
 }
 

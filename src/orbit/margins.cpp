@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/ranges.hpp"
+#include "base/set_bits.hpp"
 #include "orbit/equations.hpp"
 #include "orbit/leg_flow.hpp"
 #include "slapstick/orbit/periodic_orbit.hpp"
@@ -37,24 +38,30 @@ bool of_contact_that_changed(const mode::ContactStates& a, const mode::ContactSt
   return false;
 }
 
-/// Is this guard zero at a leg's start because of the event there?
-/// At a knot of a signal a force may jump: a contact that lets go there begins at zero.
-bool zero_by_event(const mode::Frame& frame, const Leg& before, const Leg& behind, const mode::Guard& guard) {
-  if (before.ending == Ending::cut) return false;
-  if (before.ending == Ending::knot) return of_contact_that_changed(before.states, behind.states, guard);
-  const GuardKind kind = before.ending == Ending::chatter ? GuardKind::gap : before.kind;
+/// Is this guard zero where a guard of this kind and contact has ended the leg before?
+bool zero_with(const mode::Frame& frame, GuardKind kind, int contact, const mode::Guard& guard) {
   if (of_crossing(kind) || of_crossing(guard.kind)) {  // the line just crossed, seen from its other side
     const bool same = (of_corner(kind) && of_corner(guard.kind)) || (of_load(kind) && of_load(guard.kind)) ||
                       (of_bound(kind) && of_bound(guard.kind));
-    return same && kind != guard.kind && before.contact == guard.contact;
+    return same && kind != guard.kind && contact == guard.contact;
   }
-  const int was = displacement(frame, kind, before.contact), is = displacement(frame, guard.kind, guard.contact);
+  const int was = displacement(frame, kind, contact), is = displacement(frame, guard.kind, guard.contact);
   if (frame.parallel(was, is) == 0) return false;
   if (of_gap(guard.kind))
     return of_gap(kind) || kind == GuardKind::press || kind == GuardKind::let_go || kind == GuardKind::push;
   if (guard.kind == GuardKind::slip)
     return frame.in_step(was, is) && (mode::of_friction(kind) || kind == GuardKind::press);
   return false;
+}
+
+/// Is this guard zero at a leg's start because of the event there?
+/// At a knot of a signal a force may jump: a contact that lets go there begins at zero.
+bool zero_by_event(const mode::Frame& frame, const Leg& before, const Leg& behind, const mode::Guard& guard) {
+  if (before.ending == Ending::cut) return false;
+  if (before.ending == Ending::knot) return of_contact_that_changed(before.states, behind.states, guard);
+  if (before.ending != Ending::chatter) return zero_with(frame, before.kind, before.contact, guard);
+  return ranges::any_of(set_bits(before.chattering),
+                        [&](int stop) { return zero_with(frame, GuardKind::gap, stop, guard); });
 }
 
 /// .. because of one of the events there?

@@ -1,6 +1,7 @@
 /// Bursts of chatter by their events, shrunk legs by their lengths.
 #include "orbit/short_legs.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "base/ranges.hpp"
@@ -20,7 +21,10 @@ bool has_shrunk(const Orbit& from, const Orbit& to, std::size_t leg, double part
 }  // namespace
 
 int chatters(const Orbit& orbit) {
-  return static_cast<int>(ranges::count(orbit.shape.legs, Ending::chatter, &Leg::ending));
+  int count = 0;
+  for (const Leg& leg : orbit.shape.legs)
+    if (leg.ending == Ending::chatter) count += std::popcount(leg.chattering);
+  return count;
 }
 
 bool in_burst(const Orbit& orbit, std::size_t leg) {

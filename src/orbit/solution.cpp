@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "base/set_bits.hpp"
 #include "flow/contact_state.hpp"
 #include "orbit/continuum.hpp"
 #include "orbit/equations.hpp"
@@ -67,12 +68,14 @@ bool sticks(const Itinerary& shape) {
   return ranges::any_of(shape.legs, [](const Leg& leg) { return mode::rests(leg.states); });
 }
 
-/// What the friction contacts do at the end of each leg.
+/// What the friction contacts do at each instant that ends legs.
 void count_changes(Solution& found, const Orbit& orbit) {
   using mode::FrictionState;
   for (std::size_t i = 0; i < orbit.legs(); ++i) {
-    const auto &before = orbit.shape.legs[i].states.frictions,
-               &after = orbit.shape.legs[(i + 1) % orbit.legs()].states.frictions;
+    if (orbit.tied(i)) continue;
+    std::size_t behind = (i + 1) % orbit.legs();
+    while (orbit.tied(behind)) behind = (behind + 1) % orbit.legs();
+    const auto &before = orbit.shape.legs[i].states.frictions, &after = orbit.shape.legs[behind].states.frictions;
     for (std::size_t c = 0; c < before.size(); ++c) {
       if (before[c] == after[c] || before[c] == FrictionState::stick) continue;
       if (before[c] == FrictionState::unloaded || after[c] == FrictionState::unloaded) continue;
@@ -202,6 +205,12 @@ std::vector<EventOfOrbit> events(const Problem& problem, const Orbit& orbit) {
                                                            : frame.compliant[at - stops - frictions];
     event.w = row.sign * X[frame.u(row.own)];
     all.push_back(std::move(event));
+    // The limit of several stops is a row of each; the leg is named by the first.
+    for (const int stop : set_bits(leg.ending == Ending::chatter ? leg.chattering : 0)) {
+      if (stop == leg.event_contact) continue;
+      all.push_back(all.back());
+      all.back().contact = stop;
+    }
   }
   return all;
 }

@@ -38,7 +38,7 @@ Number Formulas::kinetic_at(int friction, const Vector& X, const Vector& by) con
 ///     f_k (T_fall - T_rise) / (T_fall + T_rise) = f0 - sqrt(f0^2 - f_k^2).
 /// Each contact has its part of that.
 Formulas::Borne Formulas::borne_in_chatter(int stop, const Vector& X, const Vector& by) const {
-  Borne borne;
+  Borne borne{stop};
   const std::size_t k = pair_of(stop);
   if (k == held_.size() || held_[k].frictions.empty()) return borne;
   Number kinetic;
@@ -52,35 +52,43 @@ Formulas::Borne Formulas::borne_in_chatter(int stop, const Vector& X, const Vect
   return borne;
 }
 
-Row Formulas::press_in_chatter(int stop, const Borne& borne) const {
-  const std::size_t k = pair_of(stop);
+Row Formulas::press_in_chatter(const Borne& borne) const {
+  const std::size_t k = pair_of(borne.stop);
   if (k == held_.size()) return none();
-  return sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) * holding(k) - borne.all * one();
+  return sense(held_[k], frame_.stops[static_cast<std::size_t>(borne.stop)]) * holding(k) - borne.all * one();
 }
 
-Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop,
-                                const Borne& borne) const {
-  const std::size_t k = pair_of(stop);
-  if (quantity.kind == Kind::acceleration) {
-    Row free = acceleration(index);
-    return free += moved_by(stop, index) * press_in_chatter(stop, borne);
-  }
-  if (index == stop) return none();
-  const int friction = index - stops();
+/// Nothing if it is on another pair.
+std::optional<Row> Formulas::friction_in_chatter(int friction, const Borne& borne) const {
+  const std::size_t k = pair_of(borne.stop);
+  if (k == held_.size()) return std::nullopt;
   const auto& of_pair = held_[k].frictions;
   const auto at = std::find(of_pair.begin(), of_pair.end(), friction);
-  if (at == of_pair.end()) return force(index, above);
-  const double side = sense(held_[k], frame_.stops[static_cast<std::size_t>(stop)]) *
+  if (at == of_pair.end()) return std::nullopt;
+  const double side = sense(held_[k], frame_.stops[static_cast<std::size_t>(borne.stop)]) *
                       sense(held_[k], frame_.frictions[static_cast<std::size_t>(friction)]);
   return side * borne.of[static_cast<std::size_t>(at - of_pair.begin())] * one() + constant_part(friction);
 }
 
-Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop,
-                             const Borne& borne) const {
-  const bool changes = quantity.kind == Kind::acceleration || quantity.kind == Kind::force;
-  if (!changes || pair_of(stop) == held_.size()) return of(quantity, above);
-  Row row = single_in_chatter(quantity, quantity.index, above, stop, borne);
-  if (quantity.minus >= 0) row -= single_in_chatter(quantity, quantity.minus, above, stop, borne);
+Row Formulas::single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above,
+                                const std::vector<Borne>& chatter) const {
+  if (quantity.kind == Kind::acceleration) {
+    Row free = acceleration(index);
+    for (const Borne& borne : chatter) free += moved_by(borne.stop, index) * press_in_chatter(borne);
+    return free;
+  }
+  for (const Borne& borne : chatter) {
+    if (index == borne.stop) return none();
+    if (const auto friction = friction_in_chatter(index - stops(), borne)) return *friction;
+  }
+  return force(index, above);
+}
+
+Formula Formulas::in_chatter(const Quantity& quantity, const std::vector<bool>& above,
+                             const std::vector<Borne>& chatter) const {
+  if (quantity.kind != Kind::acceleration && quantity.kind != Kind::force) return of(quantity, above);
+  Row row = single_in_chatter(quantity, quantity.index, above, chatter);
+  if (quantity.minus >= 0) row -= single_in_chatter(quantity, quantity.minus, above, chatter);
   return {row};
 }
 

@@ -35,18 +35,20 @@ class Formulas {
   /// @param above  of each kink, whether its row is positive
   [[nodiscard]] Formula of(const Quantity& quantity, const std::vector<bool>& above) const;
 
-  /// The tail of a complete chatter is flown with its stop closed (flow/chatter.hpp), but the stop pushes at impacts
+  /// The tail of a complete chatter is flown with its stops closed (flow/chatter.hpp), but a stop pushes at impacts
   /// only. What the friction of its pair bears in the mean, from the tail's start at X on ..
   struct Borne {
-    Number all;
-    std::vector<Number> of;  ///< of each friction contact of the pair, in the order of HeldPair
+    int stop;
+    Number all = {};
+    std::vector<Number> of = {};  ///< of each friction contact of the pair, in the order of HeldPair
   };
   [[nodiscard]] Borne borne_in_chatter(int stop, const Vector& X, const Vector& by) const;
   /// .. the mean push of its impacts as a row over X ..
-  [[nodiscard]] Row press_in_chatter(int stop, const Borne& borne) const;
-  /// .. a quantity between the impacts, and what it has of their impulses.
-  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above, int stop,
-                                   const Borne& borne) const;
+  [[nodiscard]] Row press_in_chatter(const Borne& borne) const;
+  /// .. a quantity between the impacts, and what it has of the impulses of one stop.
+  /// @param chatter  of each stop that chatters
+  [[nodiscard]] Formula in_chatter(const Quantity& quantity, const std::vector<bool>& above,
+                                   const std::vector<Borne>& chatter) const;
   [[nodiscard]] Number share_in_chatter(const Quantity& quantity, int stop) const;
 
   /// Row over X of a coordinate's displacement and velocity, of a contact's velocity.
@@ -80,8 +82,9 @@ class Formulas {
   [[nodiscard]] std::size_t pair_of(int stop) const;
   [[nodiscard]] Number moved_by(int stop, int coordinate) const;
   [[nodiscard]] Number single_share(const Quantity& quantity, int index, int stop) const;
-  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above, int stop,
-                                      const Borne& borne) const;
+  [[nodiscard]] Row single_in_chatter(const Quantity& quantity, int index, const std::vector<bool>& above,
+                                      const std::vector<Borne>& chatter) const;
+  [[nodiscard]] std::optional<Row> friction_in_chatter(int friction, const Borne& borne) const;
   [[nodiscard]] Formula single(const Quantity& quantity, int index, const std::vector<bool>& above) const;
   [[nodiscard]] Row acceleration(int coordinate) const;
   [[nodiscard]] Row gap(int contact) const;

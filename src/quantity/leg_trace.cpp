@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/set_bits.hpp"
+
 namespace slapstick::quantity {
 namespace {
 
-bool sums_impacts(const orbit::Leg& leg) {
-  return leg.ending == orbit::Ending::chatter || leg.ending == orbit::Ending::onset;
+/// The stops whose flights count from the end of a leg, the limit of a chatter.
+std::vector<int> flights_after_chatter(const orbit::Leg& leg) {
+  return leg.ending == orbit::Ending::chatter ? set_bits(leg.chattering) : std::vector<int>{};
 }
 
 bool slips(const orbit::Leg& leg) {
@@ -69,7 +72,7 @@ void Cycle::trace(Tracer& tracer) const {
   for (std::size_t k = 0; k < legs; ++k) {
     const std::size_t i = (first + k) % legs;
     const Number begin = this->begin(i, first);
-    if (sums_impacts(leg(i))) tracer.chatter(leg(i).contact);
+    if (leg(i).chattering != 0) tracer.chatter(leg(i).chattering);
     piece(i, begin, tracer);
     for (const Motion::Strike& strike : leg(i).strikes) tracer.strike(strike.stops);
     for (const orbit::Pulse& pulse : orbit::pulses(*set_, leg(i)))
@@ -77,7 +80,7 @@ void Cycle::trace(Tracer& tracer) const {
                    {pulse.area[0], rate_ != nullptr ? pulse.area[1 + static_cast<Eigen::Index>(parameter_)] : 0.0});
     for (const auto& [contact, w] : met(i))
       if (contact < static_cast<int>(model().stops.size())) tracer.impact(contact, w);
-    if (leg(i).ending == orbit::Ending::chatter) tracer.begin_flight(leg(i).contact, begin + lasts(i));
+    for (const int stop : flights_after_chatter(leg(i))) tracer.begin_flight(stop, begin + lasts(i));
   }
   const Moving again = start(first);
   tracer.finish(again.X.data(), set_->mode(leg(first).states).outline, rate_ != nullptr ? again.by.data() : nullptr);
@@ -115,7 +118,7 @@ void Cycle::begin_flights(std::size_t first, Tracer& tracer) const {
     const Number end = begin(i, first) + lasts(i);
     if (slips(leg(i))) slid += lasts(i);
     for (const auto& [contact, w] : met(i)) marks.push_back({contact, end, slid});
-    if (leg(i).ending == orbit::Ending::chatter) marks.push_back({leg(i).contact, end, slid});
+    for (const int stop : flights_after_chatter(leg(i))) marks.push_back({stop, end, slid});
   }
   for (const Mark& mark : marks) tracer.begin_flight(mark.contact, mark.time - duration(), slid - mark.slid);
 }

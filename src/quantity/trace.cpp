@@ -17,7 +17,7 @@ class Follower {
   void look(bool event) {
     const bool flown = motion_.counters().segments != segments_ || (event && struck_at_start());
     first_ = false;
-    if (flown) piece(event && motion_.event().kind == EventKind::chatter);
+    if (flown) piece();
     if (!event) return;
     if (flown && motion_.event().kind == EventKind::knot) pulses();
     if (flown) tracer_.arrive(motion_.engine().extended_before().data());
@@ -36,13 +36,13 @@ class Follower {
   }
 
   /// The impacts that a chatter's limit stands for come before its segment, others after theirs.
-  void piece(bool chatter) {
+  void piece() {
     segments_ = motion_.counters().segments;
     const Motion::Segment segment = motion_.segment();
     const flow::CompiledSystem& system = motion_.system().compiled();
     auto& outline = outlines_[segment.mode];
     if (outline == nullptr) outline = system.outline(segment.mode);
-    if (chatter) tracer_.chatter(motion_.event().contact);
+    if (const std::uint32_t stops = motion_.engine().chattered(); stops != 0) tracer_.chatter(stops);
     tracer_.piece(outline, system.mode(segment.mode).window(), motion_.engine().extended_at_start().data(),
                   segment.start.since(origin_) * system.period(), segment.duration);
     for (const Motion::Strike& strike : motion_.strikes()) tracer_.strike(strike.stops);

@@ -5,70 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "base/set_bits.hpp"
+#include "quantity/terms.hpp"
+
 namespace slapstick::quantity {
-
-namespace {
-
-constexpr int degree = 23;
-
-/// A row over X whose polynomial is needed.
-struct Term {
-  std::vector<std::pair<std::size_t, std::size_t>> products;  ///< of rows
-  std::optional<std::size_t> linear;
-};
-
-/// Zero from the degree on.
-void widen(int to, Polynomial& f) {
-  while (f.degree < to) f.a[static_cast<std::size_t>(++f.degree)] = 0.0;
-}
-
-void add_product(const Polynomial& f, const Polynomial& g, Polynomial& sum) {
-  widen(f.degree + g.degree, sum);
-  for (int i = 0; i <= f.degree; ++i)
-    for (int j = 0; j <= g.degree; ++j)
-      sum.a[static_cast<std::size_t>(i + j)] += f.a[static_cast<std::size_t>(i)] * g.a[static_cast<std::size_t>(j)];
-}
-
-/// The rows of Expansion::taylor_of as polynomials on a part of its steps, without the terms that are below rounding.
-void scale_rows(const Vector& coefficients, double ratio, std::vector<Polynomial>& out) {
-  constexpr double negligible = 0x1p-60;
-  out.resize(static_cast<std::size_t>(coefficients.size()) / (degree + 1));
-  for (std::size_t r = 0; r < out.size(); ++r) {
-    Polynomial& f = out[r];
-    double power = 1.0, size = 0.0;
-    for (int j = 0; j <= degree; ++j, power *= ratio) {
-      const double a = power * coefficients[static_cast<Eigen::Index>(r) * (degree + 1) + j];
-      f.a[static_cast<std::size_t>(j)] = a;
-      size += std::abs(a);
-    }
-    f.degree = degree;
-    while (f.degree > 0 && std::abs(f.a[static_cast<std::size_t>(f.degree)]) <= negligible * size) --f.degree;
-  }
-}
-
-/// A quantity of its rows.
-void combine(const Term& term, const std::vector<Polynomial>& rows, Polynomial& value) {
-  value.degree = 0;
-  value.a[0] = 0.0;
-  if (term.linear) {
-    const Polynomial& row = rows[*term.linear];
-    value.degree = row.degree;
-    std::copy_n(row.a.begin(), row.degree + 1, value.a.begin());
-  }
-  for (const auto& [a, b] : term.products) add_product(rows[a], rows[b], value);
-}
-
-/// Its derivative: (a b)' = a' b + a b'.
-void combine_rates(const Term& term, const std::vector<Polynomial>& rows, const std::vector<Polynomial>& rates,
-                   Polynomial& value) {
-  combine({{}, term.linear}, rates, value);
-  for (const auto& [a, b] : term.products) {
-    add_product(rates[a], rows[b], value);
-    add_product(rows[a], rates[b], value);
-  }
-}
-
-}  // namespace
 
 /// The Taylor polynomials of a mode's rows on steps of length `longest`: coefficients = taylor X, row by row.
 struct Tracer::Expansion {
@@ -103,11 +43,11 @@ struct Tracer::Expansion {
 
 /// Rows c A^j h^j / j!, j = 0 .. 23, one block for each c.
 Matrix Tracer::Expansion::taylor_of(const std::vector<Row>& rows) const {
-  Matrix all(static_cast<Eigen::Index>(rows.size()) * (degree + 1), outline.system.rows());
+  Matrix all(static_cast<Eigen::Index>(rows.size()) * (taylor_degree + 1), outline.system.rows());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     RowVector term = rows[r].value;
-    for (int j = 0; j <= degree; ++j) {
-      all.row(static_cast<Eigen::Index>(r) * (degree + 1) + j) = term;
+    for (int j = 0; j <= taylor_degree; ++j) {
+      all.row(static_cast<Eigen::Index>(r) * (taylor_degree + 1) + j) = term;
       term = (longest / (j + 1)) * (term * outline.system);
     }
   }
@@ -151,11 +91,14 @@ Tracer::Expansion::Branch Tracer::Expansion::branch_of(const std::vector<Formula
   return made;
 }
 
-/// The tail of a chatter: the quantities between its impacts, and the sum of these, the integral of the mean push.
+/// The tail of a chatter: the quantities between its impacts, and the sum of these, the integrals of the mean pushes.
 struct Tracer::Tail {
-  Expansion::Branch branch;    ///< a term for each quantity, and one for the push
-  std::vector<Number> shares;  ///< of each quantity, in the sum
-  Number sum;
+  Expansion::Branch branch;  ///< a term for each quantity, and one for the push of each stop
+  struct Push {
+    std::vector<Number> shares;  ///< of each quantity, in the sum
+    Number sum = {};
+  };
+  std::vector<Push> pushes;
 };
 
 Tracer::Tracer(const Model& model, const mode::Frame& frame, Number period, const std::vector<Quantity>& of,
@@ -182,7 +125,7 @@ Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>&
   const auto m = outline->system.rows();
   Matrix term = Matrix::Identity(m, m);
   made->flow = term;
-  for (int j = 1; j <= degree; ++j) {
+  for (int j = 1; j <= taylor_degree; ++j) {
     term = (longest / j) * (outline->system * term);
     made->flow += term;
   }
@@ -192,10 +135,10 @@ Tracer::Expansion& Tracer::expansion(const std::shared_ptr<const mode::Outline>&
 
 void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double longest, const double* X, double begin,
                    double duration, const PieceRates* rates) {
-  if (chatter_ >= 0) jumps_.chatter(chatter_);
+  if (chatter_ != 0) jumps_.chatter(chatter_);
   std::optional<VelocityJump> jump;
   if (last_ != nullptr) jump = jump_before(*outline, X, rates != nullptr ? rates->X : nullptr);
-  if (jump && chatter_ < 0) listener_.jump(*jump);
+  if (jump && chatter_ == 0) listener_.jump(*jump);
   jumps_.forget();
   Expansion& mode = expansion(outline, longest, rates);
   at_.X = Eigen::Map<const Vector>(X, frame_.size());
@@ -204,7 +147,7 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
                end_rate = rates != nullptr ? rates->duration : 0.0;
   double from_rate = 0.0;
   behind_ = nullptr;
-  if (chatter_ >= 0) begin_tail(mode);
+  if (chatter_ != 0) begin_tail(mode);
   // Between two events at one instant a piece has no length, and yet its ends move apart.
   if (duration == 0.0 && end_rate != 0.0)
     step(mode, 0.0, {begin, 0.0, values_, value_rates_, begin_rate, 0.0, end_rate});
@@ -218,7 +161,7 @@ void Tracer::piece(const std::shared_ptr<const mode::Outline>& outline, double l
     from_rate = length.rate;
     left -= length.value;
   }
-  if (chatter_ >= 0) tell_tail(std::move(jump), {begin, begin_rate});
+  if (chatter_ != 0) tell_tail(std::move(jump), {begin, begin_rate});
   if (rates != nullptr) at_.by += end_rate * (outline->system * at_.X);
   const auto slips = [](mode::FrictionState state) { return state != mode::FrictionState::stick; };
   const auto& frictions = outline->states.frictions;
@@ -231,35 +174,41 @@ void Tracer::begin_tail(const Expansion& mode) {
   const Formulas& formulas = mode.formulas;
   std::vector<bool> above;
   for (const Row& kink : formulas.kinks()) above.push_back(kink.value.dot(at_.X) > 0.0);
-  const Formulas::Borne borne = formulas.borne_in_chatter(chatter_, at_.X, at_.by);
+  std::vector<Formulas::Borne> chatter;
+  for (const int stop : set_bits(chatter_)) chatter.push_back(formulas.borne_in_chatter(stop, at_.X, at_.by));
   std::vector<Formula> all;
-  std::vector<Number> shares;
-  for (const Quantity& quantity : of_) {
-    all.push_back(formulas.in_chatter(quantity, above, chatter_, borne));
-    shares.push_back(formulas.share_in_chatter(quantity, chatter_));
+  for (const Quantity& quantity : of_) all.push_back(formulas.in_chatter(quantity, above, chatter));
+  std::vector<Tail::Push> pushes;
+  for (const Formulas::Borne& of_stop : chatter) {
+    all.push_back({formulas.press_in_chatter(of_stop)});
+    auto& shares = pushes.emplace_back().shares;
+    for (const Quantity& quantity : of_) shares.push_back(formulas.share_in_chatter(quantity, of_stop.stop));
   }
-  all.push_back({formulas.press_in_chatter(chatter_, borne)});
-  tail_ = std::make_unique<Tail>(Tail{mode.branch_of(all), std::move(shares), {}});
+  tail_ = std::make_unique<Tail>(Tail{mode.branch_of(all), std::move(pushes)});
 }
 
-/// The push of the impacts that a step stands for.
+/// The pushes of the impacts that a step stands for.
 void Tracer::add_to_tail(const Step& place) {
   Polynomial push, rate;
-  const Term& term = tail_->branch.terms.back();
-  combine(term, rows_, push);
-  tail_->sum.value += place.length * push.integral();
-  if (rates_ == nullptr) return;
-  combine_rates(term, rows_, row_rates_, rate);
-  tail_->sum.rate += place.length * rate.integral() + push.at(1.0) * place.to_rate - push.at(0.0) * place.from_rate;
+  for (std::size_t i = 0; i < tail_->pushes.size(); ++i) {
+    const Term& term = tail_->branch.terms[of_.size() + i];
+    Number& sum = tail_->pushes[i].sum;
+    combine(term, rows_, push);
+    sum.value += place.length * push.integral();
+    if (rates_ == nullptr) continue;
+    combine_rates(term, rows_, row_rates_, rate);
+    sum.rate += place.length * rate.integral() + push.at(1.0) * place.to_rate - push.at(0.0) * place.from_rate;
+  }
 }
 
 /// The jump with which the tail began, and the impulses of all impacts that are left.
 void Tracer::tell_tail(std::optional<VelocityJump> jump, Number begin) {
   if (!jump) jump = VelocityJump{begin, std::vector<Number>(of_.size()), {}};
-  for (std::size_t k = 0; k < of_.size(); ++k) jump->impulses[k] += tail_->shares[k] * tail_->sum;
+  for (const Tail::Push& push : tail_->pushes)
+    for (std::size_t k = 0; k < of_.size(); ++k) jump->impulses[k] += push.shares[k] * push.sum;
   listener_.jump(*jump);
   tail_.reset();
-  chatter_ = -1;
+  chatter_ = 0;
 }
 
 /// At most `length`: the step ends where a kink's row passes zero. The place moves by -k_p / k' with the parameter.
@@ -309,11 +258,11 @@ void Tracer::arrive(const double* X) {
 /// Taylor's terms over a step of length `longest`, of X and of Y.
 void Tracer::expand(const Expansion& mode) {
   const Eigen::Index m = at_.X.size();
-  terms_.resize(m, degree + 1);
-  rate_terms_.resize(m, degree + 1);
+  terms_.resize(m, taylor_degree + 1);
+  rate_terms_.resize(m, taylor_degree + 1);
   terms_.col(0) = at_.X;
   rate_terms_.col(0) = at_.by;
-  for (int j = 1; j <= degree; ++j) {
+  for (int j = 1; j <= taylor_degree; ++j) {
     const double part = mode.longest / j;
     terms_.col(j) = part * (mode.outline.system * terms_.col(j - 1));
     rate_terms_.col(j) = part * (mode.outline.system * rate_terms_.col(j - 1) + mode.rate->system * terms_.col(j - 1));
@@ -336,7 +285,7 @@ void Tracer::evaluate(Expansion& mode, double length) {
   expand(mode);
   rate_coefficients_.resize(coefficients_.size());
   for (std::size_t r = 0; r < branch.rows.size(); ++r)
-    rate_coefficients_.segment(static_cast<Eigen::Index>(r) * (degree + 1), degree + 1) =
+    rate_coefficients_.segment(static_cast<Eigen::Index>(r) * (taylor_degree + 1), taylor_degree + 1) =
         (branch.rows[r].rate * terms_ + branch.rows[r].value * rate_terms_).transpose();
   scale_rows(rate_coefficients_, ratio, row_rates_);
   for (std::size_t k = 0; k < of_.size(); ++k) combine_rates(branch.terms[k], rows_, row_rates_, value_rates_[k]);
@@ -350,7 +299,7 @@ void Tracer::move(const Expansion& mode, double length) {
     return;
   }
   Vector term = at_.X;
-  for (int j = 1; j <= degree; ++j) {
+  for (int j = 1; j <= taylor_degree; ++j) {
     next_.X.noalias() = mode.outline.system * term;
     term = (length / j) * next_.X;
     at_.X += term;
@@ -360,7 +309,7 @@ void Tracer::move(const Expansion& mode, double length) {
 /// X and Y go on.
 void Tracer::move_rates(const Expansion& mode, double length) {
   Moving term = at_;
-  for (int j = 1; j <= degree; ++j) {
+  for (int j = 1; j <= taylor_degree; ++j) {
     next_.by.noalias() = mode.outline.system * term.by;
     next_.by += mode.rate->system * term.X;
     next_.X.noalias() = mode.outline.system * term.X;

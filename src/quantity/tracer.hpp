@@ -69,9 +69,9 @@ class Tracer {
   void strike(std::uint32_t stops) { jumps_.strike(stops); }
   /// .. or the pulse of a signal comes ..
   void pulse(int signal, Number area) { jumps_.pulse(signal, area); }
-  /// .. or that next piece is the tail of a complete chatter of this stop, flown with the stop closed. The jump before
+  /// .. or that next piece is the tail of a complete chatter of these stops, flown with them closed. The jump before
   /// comes after the piece, with the impulses of all impacts that the tail stands for ..
-  void chatter(int stop) { chatter_ = stop; }
+  void chatter(std::uint32_t stops) { chatter_ = stops; }
   /// .. and this one was hit. Ignored before the first piece.
   void impact(int stop, double w);
   /// Flights of a stop count from here: an impact before the first piece, or the end of a chatter.
@@ -105,7 +105,7 @@ class Tracer {
   const Rates* rates_;
   VelocityJumps jumps_;
   std::vector<std::unique_ptr<Expansion>> modes_;
-  int chatter_ = -1;                     ///< the next piece is the tail of a chatter of this stop
+  std::uint32_t chatter_ = 0;            ///< the next piece is the tail of a chatter of these stops
   std::unique_ptr<Tail> tail_;           ///< while the trace is in one
   const mode::Outline* last_ = nullptr;  ///< of the last piece
   Moving at_;                            ///< where the trace stands, apart from what it is behind

@@ -86,7 +86,7 @@ std::optional<VelocityJump> VelocityJumps::between(const mode::Outline& last, co
           static_cast<std::size_t>(std::find(of.stops.begin(), of.stops.end(), impact.contact) - of.stops.begin());
       impact.impulse = of.P[i];
       impact.loss = of.loss[i];
-      if (impact.contact != chatter_) continue;
+      if ((chatter_ >> impact.contact & 1U) == 0) continue;
       const auto [impulse, loss] = plastic(impact);
       impact.impulse -= impulse;
       impact.loss -= loss;

@@ -51,11 +51,11 @@ class VelocityJumps {
   void strike(std::uint32_t stops) { struck_ |= stops; }
   /// .. or the pulse of a signal comes ..
   void pulse(int signal, Number area) { pulses_.push_back({signal, area}); }
-  /// The tail of a complete chatter of this stop begins at the next jump: velocities jump as at an impact, if one is
-  /// there, and then as at a plastic one.
-  void chatter(int stop) {
-    strike(std::uint32_t{1} << static_cast<unsigned>(stop));
-    chatter_ = stop;
+  /// The tail of a complete chatter of these stops begins at the next jump: velocities jump as at impacts, if some are
+  /// there, and then as at plastic ones.
+  void chatter(std::uint32_t stops) {
+    strike(stops);
+    chatter_ = stops;
   }
   /// .. and this one was hit; `before` is where the trace stands.
   void impact(int stop, double w, const Moving& before);
@@ -63,7 +63,7 @@ class VelocityJumps {
   void begin_flight(int contact, Number time, Number slid);
   /// The trace has come to an instant; friction slipped on the way so long.
   void go_on(Number time, Number slid);
-  void forget() { struck_ = 0, chatter_ = -1, pulses_.clear(); }
+  void forget() { struck_ = 0, chatter_ = 0, pulses_.clear(); }
   /// Can there be a jump between these modes? If not, no state is needed.
   [[nodiscard]] bool may_come(const mode::Outline& last, const mode::Outline& next) const {
     return struck_ != 0 || !pulses_.empty() || !impacts_.empty() || last.states.compliant != next.states.compliant;
@@ -108,7 +108,7 @@ class VelocityJumps {
   const Rates* rates_;
   std::uint32_t struck_ = 0;
   std::vector<Pulse> pulses_;
-  int chatter_ = -1;  ///< the stop whose chatter begins at the next jump, or -1
+  std::uint32_t chatter_ = 0;  ///< the stops whose chatter begins at the next jump
   std::vector<Struck> impacts_;
   std::deque<std::pair<std::uint32_t, Matrix>> inverses_;  ///< by the stops that were struck
   Number now_, slid_;

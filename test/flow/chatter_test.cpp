@@ -272,7 +272,7 @@ TEST(Chatter, IsNotProvenWhereStaticFrictionMightHoldThePairOff) {
     const System system(m);
     const Motion motion(system, {0.0, -0.1});
     std::vector<double> scratch(4 * static_cast<std::size_t>(system.compiled().frame().size()));
-    return flow::prove_chatter(system.compiled(), system.compiled().mode(motion.mode_id()), 0,
+    return flow::prove_chatter(system.compiled(), system.compiled().mode(motion.mode_id()), std::vector{0},
                                motion.engine().extended().data(), 1.0, scratch)
         .proven;
   };

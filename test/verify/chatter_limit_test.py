@@ -61,6 +61,16 @@ def test_chatter_that_shakes_what_it_lies_on():
     refused(lines[:i] + [line('spring', 1, -1, 1024.0)] + lines[i:], 'no box is found')
 
 
+def test_chatter_of_two_balls_from_one_instant_on():
+    proved(motions.two_balls())
+    proved(motions.two_balls(slower=0.5))
+    proved(motions.two_balls(2.0 ** -60))  # what one does to the other is less than rounding
+    lines = motions.two_balls()
+    refused(forged(lines, 'stop 1', {4: 0.75}), 'the limit is between', 'further than 2^-49 periods from DURATION')
+    refused([text.replace('end chatter 0 1', 'end chatter 0') for text in lines], 'brought to rest by a chatter that nothing proves')
+    refused(motions.two_balls(1.0), 'no box is found')
+
+
 def test_chatter_that_friction_stops_in_the_air():
     refused(motions.rubbing(2.5), 'friction may hold the pair off the stop')
     refused(motions.rubbing(3.0), 'friction may hold the pair off the stop')

@@ -79,6 +79,20 @@ def rubbing(static=1.5):
     return lines + done(3, (4, 0.0), [0.0], [0.0])
 
 
+def two_balls(spring=0.0, slower=1.0):
+    """The ball of `chatter` twice, joined by a spring: it has no force while they move alike. The second may be of another weight, with all
+    its speeds and places in proportion: its limit is the same."""
+    parts = [('spring', 0, 1, spring), ('force', 0, 0, 1.0, 0.0), ('force', 1, 0, slower, 0.0), ('stop', 0, -1, 0.0, 0.5, 'floor'),
+             ('stop', 1, -1, 0.0, 0.5, 'table')]
+    lines = head('two balls', [1.0, 1.0], parts, [(0, -1, 0.0, 0.0), (1, -1, 0.0, 0.0)])
+    lines += [line('start', 0, 0.0, -0.5, 0.0, -0.5 * slower, 0.0)]
+    lines += segment(0, (0, 0.0), 1.0, ['open', 'open'], [-0.5, -0.5 * slower], [0.0, 0.0], EVENT, ('blow', 0, 1),
+                     ('impact', 0, 1.0), ('impact', 1, slower), ('chatter', 0, 1))
+    lines += segment(1, (1, 0.0), 2.0, ['closed', 'closed'], [0.0, 0.0], [0.0, 0.0], ('end', 'chatter', 0, 1))
+    lines += segment(2, (3, 0.0), 1.0, ['closed', 'closed'], [0.0, 0.0], [0.0, 0.0], CUT)
+    return lines + done(3, (4, 0.0), [0.0, 0.0], [0.0, 0.0])
+
+
 def oscillator():
     """x'' = -x from x = 0, x' = 1 to a stop at x = 1/2 after pi/6, with restitution 0.8, and back."""
     lines = head('oscillator', [1.0], [('spring', 0, -1, 1.0), ('stop', 0, -1, 0.5, 0.8, 'wall')], [(0, -1, 0.5, 0.0)])

@@ -29,6 +29,7 @@ struct Leg {
   Ending ending = Ending::guard;
   mode::GuardKind kind = mode::GuardKind::gap;  ///< of the guard; its contact is
   int contact = 0;                              ///< .. this, or the stop that chatters, or the signal
+  std::uint32_t chattering = 0;                 ///< the stops whose impacts the leg sums, bit by bit
   std::vector<int> lines;                       ///< of each signal: the straight line that it is on (mode/drive.hpp)
   std::vector<int> pulses;                      ///< of a knot: the signals whose pulses come at the end
   std::vector<Motion::Strike> strikes;          ///< the impacts at the end, in order

@@ -56,7 +56,7 @@ class Changes {
     for (std::size_t i = 0; i < now_.compliant.size(); ++i) {
       const int contact = first_compliant() + static_cast<int>(i);
       if (is_own(i, of_compliant))
-        tell_own(contact);
+        tell_own(contact, old_.compliant[i] != now_.compliant[i]);
       else if (old_.compliant[i] != now_.compliant[i])
         tell_(kind_of(old_.compliant[i], now_.compliant[i]), contact);
     }
@@ -66,7 +66,7 @@ class Changes {
     const int first = first_compliant() + static_cast<int>(now_.compliant.size());
     for (std::size_t i = 0; i < now_.pieces.size(); ++i) {
       if (is_own(i, mode::of_corner))
-        tell_own(first + static_cast<int>(i));
+        tell_own(first + static_cast<int>(i), old_.pieces[i] != now_.pieces[i]);
       else if (old_.pieces[i] != now_.pieces[i])
         tell_(EventKind::corner, first + static_cast<int>(i));
     }
@@ -116,7 +116,8 @@ class Changes {
       const int contact = first_friction() + static_cast<int>(i);
       if (is_own(i, of_hold))
         tell_own(contact);
-      else if (released && !loses_its_share(i) && !of_pair(frame_.frictions[i]) && !is_struck(frame_.frictions[i]))
+      else if (released && !loses_its_share(i) && !of_pair(frame_.frictions[i]) && !is_struck(frame_.frictions[i]) &&
+               !another_speaks(i))
         tell_(EventKind::release, contact);
     }
     for (std::size_t i = 0; i < now_.stops.size(); ++i) {
@@ -127,6 +128,21 @@ class Changes {
       else if (released && !struck && !of_pair(frame_.stops[i]))
         tell_(EventKind::release, static_cast<int>(i));
     }
+  }
+
+  /// Is the release of a friction contact that of a stop of its pair, or of a contact before it? As in a pair whose
+  /// own event it is.
+  [[nodiscard]] bool another_speaks(std::size_t i) const {
+    const int own = frame_.frictions[i].own;
+    for (std::size_t k = 0; k < now_.stops.size(); ++k) {
+      const bool released = old_.stops[k] == mode::StopState::closed && now_.stops[k] == mode::StopState::open;
+      if (released && frame_.parallel(frame_.stops[k].own, own) != 0) return true;
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool released = old_.frictions[k] == Friction::stick && now_.frictions[k] != Friction::stick;
+      if (released && frame_.parallel(frame_.frictions[k].own, own) != 0) return true;
+    }
+    return false;
   }
 
   static EventKind kind_of(Compliant old, Compliant now) {
@@ -148,8 +164,9 @@ class Changes {
 
   static bool of_press(mode::GuardKind kind) { return kind == mode::GuardKind::press; }
 
-  void tell_own(int contact) {
-    if (ended_.own) tell_(*ended_.own, contact);
+  /// @param changes  the state of its contact. One that an impact of the instant has turned back just there does not
+  void tell_own(int contact, bool changes = true) {
+    if (ended_.own && (changes || ended_.struck == 0)) tell_(*ended_.own, contact);
   }
 
   [[nodiscard]] bool is_own(std::size_t i, bool (*of)(mode::GuardKind)) const {

@@ -41,6 +41,15 @@ bool Engine::of_one_pair(const mode::Guard& a, const mode::Guard& b) const {
   return coupled(a, b) || coupled(b, a) || turns_with(a, b) || turns_with(b, a);
 }
 
+/// Has another gap or velocity passed its zero before the event, by more than its bound? Its zero and the event's are
+/// one instant then, as far as the clock can tell: of copies of a machine that have just been at rest.
+bool Engine::has_passed(int guard) const {
+  const mode::Guard& h = here_->guards()[guard];
+  if (orders_[guard] < 0 || orders_[guard] == never || h.at(X_.data()) >= 0.0) return false;
+  return h.kind == GuardKind::slip ||
+         (h.kind == GuardKind::gap && approach_velocity(*system_, h.contact, X_.data()) > 0.0);
+}
+
 /// Other gaps, relative velocities and ways of sliders to their limits that are zero at this instant, as far as
 /// rounding can tell, are made exactly zero: symmetric machines have their events in pairs.
 void Engine::gather_ties(int guard) {
@@ -49,7 +58,7 @@ void Engine::gather_ties(int guard) {
   for (int g = 0; g < static_cast<int>(guards.size()); ++g) {
     const int contact = guards[g].contact;
     if (g == guard || of_one_pair(guards[g], guards[guard])) continue;  // of one pair: see stop_touched_at_rest
-    if (!within_noise(g, arrived_x_)) continue;
+    if (!within_noise(g, arrived_x_) && !has_passed(g)) continue;
     if (guards[g].kind == GuardKind::gap)
       set_gap_zero(frame.stops[contact]);
     else if (guards[g].kind == GuardKind::slip)
@@ -74,17 +83,34 @@ bool Engine::only_touches(int guard, double rounding) const {
   return taylor[1] >= 0.0 || (taylor[2] > 0.0 && taylor[1] * taylor[1] <= 4.0 * taylor[2] * rounding);
 }
 
-/// A motion that settles may draw a slider along until the slider is just not drawn any more. The limit would be
-/// touched in each cycle, and rounding would say each time whether the slider slips. So a slider that only touches is
-/// drawn further, clear of what the search of roots and the choice of the mode take for zero; and a touch is no event.
+/// Is a slider at its limit where its pair hits a stop, up to rounding? There the pair turns back.
+/// @returns the way that is left
+std::optional<double> Engine::way_to_wall(int guard, double rounding) const {
+  const mode::Guard& limit = here_->guards()[guard];
+  const mode::Frame& frame = system_->frame();
+  const mode::SliderRow* slider = frame.slider(limit.kind, limit.contact);
+  if (slider == nullptr || !slider->rests(here_->states().pieces)) return std::nullopt;
+  for (int s = 0; s < stops(); ++s) {
+    const int own = frame.stops[s].own;
+    if (!frame.in_step(own, slider->pair.own) || approach_velocity(*system_, s, X_.data()) <= 0.0) continue;
+    if (const double way = std::abs(gap(*system_, s, X_.data())); way <= rounding) return way;
+  }
+  return std::nullopt;
+}
+
+/// A motion that settles may draw a slider along until the slider is just not drawn any more, at a turn or at a stop.
+/// The limit would be touched in each cycle, and rounding would say each time whether the slider slips. So a slider
+/// that only touches is drawn further, clear of what the search of roots and the choice of the mode take for zero; and
+/// a touch is no event.
 void Engine::leave_touched_limits() {
   for (std::size_t k = hits_.size(); k > 0; --k) {
     const int g = hits_[k - 1];
     const mode::Guard& limit = here_->guards()[g];
     const double rounding =
         std::max(noise_of(g, arrived_x_), rounding_of(here_->size(), limit.size(magnitude_.data())));
-    if (!only_touches(g, rounding)) continue;
-    set_crossing_guard(limit, clear * rounding);
+    const std::optional<double> way = only_touches(g, rounding) ? 0.0 : way_to_wall(g, rounding);
+    if (!way) continue;
+    set_crossing_guard(limit, *way + clear * rounding);
     hits_.erase(hits_.begin() + static_cast<std::ptrdiff_t>(k) - 1);
   }
 }

@@ -155,10 +155,16 @@ std::size_t Division::owner(const Motion::Strike& strike) const {
   return first;
 }
 
-/// The guard that is a corner of the characteristic; without such a guard the last one.
+/// The guard that is a corner of the characteristic, or else the first that acts on its pair, as an impact that turns
+/// the velocity round; without such guards the last one.
 std::size_t Division::owner_of_piece(int characteristic) const {
   for (std::size_t k = 0; k < hits_.size(); ++k)
     if (mode::of_corner(guard(k).kind) && guard(k).contact == characteristic) return k;
+  const auto& push = frame_.characteristics[static_cast<std::size_t>(characteristic)].push;
+  for (std::size_t k = 0; k < hits_.size(); ++k)
+    if (!passes_smoothly(model_, guard(k)) && !mode::of_corner(guard(k).kind) &&
+        push[contact_of(frame_, guard(k)).own] != 0.0)
+      return k;
   return hits_.size() - 1;
 }
 

@@ -17,10 +17,12 @@ class Passage {
   Passage(const Engine& engine, bool backward);
   void carry(Eigen::MatrixXd& tangents);
   void carry_at_once(Eigen::MatrixXd& tangents) const;
+  /// What the rounding of rates can have made of the tangents: a slow event makes much of that.
+  [[nodiscard]] const Eigen::MatrixXd& rounding() const { return rounding_; }
 
  private:
   void apply(const Motion::Strike& strike, bool rates, Eigen::Ref<Eigen::MatrixXd> velocities) const;
-  [[nodiscard]] Eigen::VectorXd flow(const mode::ContactStates& states, const Eigen::VectorXd& X) const;
+  [[nodiscard]] Eigen::MatrixXd flow_of(const mode::ContactStates& states) const;
 
   const Engine& engine_;
   const CompiledSystem& system_;
@@ -28,6 +30,7 @@ class Passage {
   const mode::Mode& before_;
   bool backward_;
   Eigen::VectorXd X_;
+  Eigen::MatrixXd rounding_;
 };
 
 Passage::Passage(const Engine& engine, bool backward)
@@ -48,33 +51,39 @@ void Passage::apply(const Motion::Strike& strike, bool rates, Eigen::Ref<Eigen::
   push_along(frame_, hit.rows, rates ? hit.slope : hit.factor, velocities);
 }
 
-/// A X in a mode, which may exist between two guards only.
-Eigen::VectorXd Passage::flow(const mode::ContactStates& states, const Eigen::VectorXd& X) const {
+/// A of a mode, which may exist between two guards only.
+Eigen::MatrixXd Passage::flow_of(const mode::ContactStates& states) const {
   const ModeId id = system_.mode_id(states);
   const mode::Mode* known = system_.known_mode(id);
-  if (known != nullptr) return known->system() * X;
-  return system_.outline(id)->system * X;
+  if (known != nullptr) return known->system();
+  return system_.outline(id)->system;
 }
 
 void Passage::carry(Eigen::MatrixXd& tangents) {
   const std::vector<InstantPart> parts = parts_of_instant(engine_, backward_);
   const int d = frame_.d;
   mode::ContactStates states = before_.states();
+  rounding_ = Eigen::MatrixXd::Zero(tangents.rows(), tangents.cols());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const mode::Guard& guard = before_.guards()[parts[k].guard];
     const bool last = k + 1 == parts.size();
     if (!passes_smoothly(system_.model(), guard)) {  // else nothing happens to a tangent
-      const Eigen::VectorXd f_minus = flow(states, X_);
+      const Eigen::MatrixXd minus = flow_of(states), plus = flow_of(parts[k].after);
+      const Eigen::VectorXd f_minus = minus * X_;
       const double slope = guard.row.dot(f_minus);
       Eigen::RowVectorXd dt = Eigen::RowVectorXd::Zero(tangents.cols());
       if (slope != 0.0) dt = -(guard.row.head(2 * d) * tangents) / slope;
-      tangents += f_minus.head(2 * d) * dt;
+      Eigen::VectorXd change = f_minus.head(2 * d), terms = minus.cwiseAbs() * X_.cwiseAbs();
       for (const Motion::Strike& strike : parts[k].strikes) {
         apply(strike, true, tangents.bottomRows(d));
+        apply(strike, true, change.tail(d));
         apply(strike, false, X_.segment(d, d));
       }
       if (last) X_ = Eigen::Map<const Eigen::VectorXd>(engine_.extended().data(), before_.size());
-      tangents -= flow(parts[k].after, X_).head(2 * d) * dt;
+      change -= (plus * X_).head(2 * d);
+      terms += plus.cwiseAbs() * X_.cwiseAbs();
+      tangents += change * dt;
+      rounding_ += 0x1p-50 * terms.head(2 * d) * dt.cwiseAbs();
     }
     states = parts[k].after;
   }
@@ -96,8 +105,9 @@ bool timed(const Engine& engine) {
 
 /// Are two derivatives the same up to rounding? Their four blocks, displacements and velocities by displacements and
 /// velocities, have a unit each. The state at the instant has no size to go by: all may be at rest there.
+/// @param rounding  of each entry, beside that of the blocks
 /// @param time  in which a state of the motion changes
-bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {
+bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& rounding, double time) {
   constexpr double order_rounding = 1e-9;  // of a block's entries; an order that matters shows in the leading digits
   Eigen::Matrix2d units;
   units << 1.0, time, 1.0 / time, 1.0;
@@ -106,7 +116,8 @@ bool alike(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double time) {
     for (Eigen::Index j = 0; j < 2; ++j) {
       const Eigen::MatrixXd x = a.block(i * d, j * n, d, n), y = b.block(i * d, j * n, d, n);
       const double size = std::max(units(i, j), x.cwiseAbs().cwiseMax(y.cwiseAbs()).maxCoeff());
-      if ((x - y).cwiseAbs().maxCoeff() > order_rounding * size) return false;
+      const Eigen::MatrixXd apart = (x - y).cwiseAbs() - rounding.block(i * d, j * n, d, n);
+      if (apart.maxCoeff() > order_rounding * size) return false;
     }
   return true;
 }
@@ -146,11 +157,13 @@ bool differentiable(const Engine& engine) {
   forward.topLeftCorner(frame.d, frame.n) = frame.dependence;
   forward.bottomRightCorner(frame.d, frame.n) = frame.dependence;
   Eigen::MatrixXd backward = forward;
-  Passage(engine, false).carry(forward);
-  Passage(engine, true).carry(backward);
+  Passage first(engine, false), second(engine, true);
+  first.carry(forward);
+  second.carry(backward);
   hold_still(engine, forward);
   hold_still(engine, backward);
-  return alike(forward, backward, engine.system().mode(engine.mode_id()).window());
+  const Eigen::MatrixXd rounding = first.rounding() + second.rounding();
+  return alike(forward, backward, rounding, engine.system().mode(engine.mode_id()).window());
 }
 
 }  // namespace slapstick::flow

@@ -151,15 +151,15 @@ bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, I
 int continuum(const Problem& problem, const Orbit& orbit, const std::vector<std::complex<double>>& multipliers) {
   constexpr double from_one = 1e-4;  // a double multiplier 1, as of a conservative model, is known to half the digits
   if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < from_one; })) return 0;
+  int dimension = 0;
   try {
+    dimension = kept_numbers(problem, orbit);
     const Null null = null_vectors_at(problem, orbit);
-    int dimension = kept_numbers(problem, orbit);
     for (Index j = 0; j < null.right.cols(); ++j) dimension += leads_along(problem, orbit, null, j) ? 1 : 0;
-    return dimension;
   } catch (const InputError&) {
-  } catch (const NumericalError&) {
+  } catch (const NumericalError&) {  // a direction in which there are no orbits, as of a chatter's short legs
   }
-  return 0;
+  return dimension;
 }
 
 namespace {

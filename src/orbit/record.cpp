@@ -159,8 +159,22 @@ class Check {
   bool run(std::size_t first, std::size_t next);
 
  private:
-  [[nodiscard]] bool meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance) const;
-  [[nodiscard]] bool to_chatter(const Motion& motion, EventReader& reader, Seen seen) const;
+  [[nodiscard]] bool meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance,
+                               std::optional<Seen>& other) const;
+  [[nodiscard]] bool to_chatter(const Motion& motion, EventReader& reader, Seen seen, std::uint32_t stops) const;
+  /// The motion has another number of impacts up to the limit of this burst.
+  void pass_burst(std::size_t& leg) {
+    result_.same_chatter = false;
+    leg = limit_of_burst(leg);
+  }
+  [[nodiscard]] std::size_t limit_of_burst(std::size_t leg) const {
+    while (orbit_.shape.legs[leg % orbit_.legs()].ending != Ending::chatter) ++leg;
+    return leg;
+  }
+  /// The stops that chatter in the burst of a leg.
+  [[nodiscard]] std::uint32_t burst_of(std::size_t leg) const {
+    return orbit_.shape.legs[limit_of_burst(leg) % orbit_.legs()].chattering;
+  }
   bool refuse(const std::string& why) {
     result_.why = why;
     return false;
@@ -171,26 +185,33 @@ class Check {
   Verification& result_;
 };
 
-/// Runs on to the limit of the burst that an event is part of.
-bool Check::to_chatter(const Motion& motion, EventReader& reader, Seen seen) const {
+/// Runs on to the limit of the burst that an event is part of. Stops that chatter together in the orbit may come to
+/// rest one after the other: their impacts are at one instant up to rounding.
+bool Check::to_chatter(const Motion& motion, EventReader& reader, Seen seen, std::uint32_t stops) const {
   constexpr int most_impacts = 1000;
   const double cycle = orbit_.t.back() - orbit_.t.front();
-  for (int k = 0; k < most_impacts && seen.leg.ending != Ending::chatter; ++k) {
+  for (int k = 0; k < most_impacts; ++k) {
+    if (seen.leg.ending == Ending::chatter) stops &= ~seen.leg.chattering;
+    if (stops == 0) return true;
     auto next = reader.next(motion.time().plus(cycle));
     if (!next) return false;
     seen = std::move(*next);
   }
-  return seen.leg.ending == Ending::chatter;
+  return false;
 }
 
 /// Are these the next events, at one instant up to rounding? Which of them is seen first is rounding too.
-bool Check::meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance) const {
+/// @param other  what is seen in their place, if anything is
+bool Check::meets_all(EventReader& reader, std::vector<std::size_t> legs, double due, double tolerance,
+                      std::optional<Seen>& other) const {
   while (!legs.empty()) {
-    const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
-    if (!seen || std::abs(seen->t - due) > tolerance) return false;
+    std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
     const auto same =
-        ranges::find_if(legs, [&](std::size_t leg) { return same_end(orbit_.shape.legs[leg], seen->leg); });
-    if (same == legs.end()) return false;
+        ranges::find_if(legs, [&](std::size_t leg) { return seen && same_end(orbit_.shape.legs[leg], seen->leg); });
+    if (same == legs.end() || std::abs(seen->t - due) > tolerance) {
+      other = std::move(seen);
+      return false;
+    }
     legs.erase(same);
   }
   return true;
@@ -207,8 +228,14 @@ bool Check::run(std::size_t first, std::size_t next) {
     const double due = orbit_.t[leg + 1] + (i >= orbit_.legs() ? cycle : 0.0);
     const double tolerance = is_rounding_leg(orbit_, leg) ? 0.5 * cycle : same_instant * cycle;
     if (const std::vector<std::size_t> tied = ended_at_end(orbit_.shape, leg); tied.size() > 1) {
-      if (!meets_all(reader, tied, due, tolerance)) return refuse("other events than the orbit's at one instant");
-      i += tied.size() - 1;
+      std::optional<Seen> other;
+      if (meets_all(reader, tied, due, tolerance, other)) {
+        i += tied.size() - 1;
+      } else if (!other || !in_burst(orbit_, leg) || !to_chatter(motion, reader, *other, burst_of(leg))) {
+        return refuse("other events than the orbit's at one instant");
+      } else {
+        pass_burst(i);
+      }
       continue;
     }
     const std::optional<Seen> seen = reader.next(Instant{}.plus(due + 2.0 * tolerance));
@@ -218,10 +245,9 @@ bool Check::run(std::size_t first, std::size_t next) {
       const bool burst = in_burst(orbit_, leg) && seen &&
                          (seen->leg.ending == Ending::chatter || seen->leg.kind == mode::GuardKind::gap ||
                           seen->leg.kind == mode::GuardKind::slip);
-      if (!burst || !to_chatter(motion, reader, *seen))
+      if (!burst || !to_chatter(motion, reader, *seen, burst_of(leg)))
         return refuse(mismatch(system_, leg, seen ? &seen->leg : nullptr, wanted));
-      result_.same_chatter = false;
-      while (orbit_.shape.legs[i % orbit_.legs()].ending != Ending::chatter) ++i;
+      pass_burst(i);
       continue;
     }
     if (std::abs(seen->t - due) > tolerance)

@@ -7,7 +7,7 @@
 #include <complex>
 #include <ostream>
 
-#include "families.hpp"
+#include "followed.hpp"
 #include "slapstick/attractor/classify.hpp"
 #include "slapstick/quantity/cycle_energy.hpp"
 #include "slapstick/quantity/measure.hpp"
@@ -133,7 +133,8 @@ TEST_P(Ties, RowsImpactsAndEnergiesAreDoubled) {
   ASSERT_EQ(pairs.size(), 2 * rows.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     EXPECT_EQ(pairs[i].kind, rows[i / 2].kind);
-    EXPECT_EQ(pairs[i].t, pairs[i - i % 2].t);
+    EXPECT_NEAR(pairs[i].t, pairs[i - i % 2].t, 1e-13);  // each leg has its own equation
+    EXPECT_TRUE(i % 2 == 0 || pairs[i].contact != pairs[i - 1].contact) << i;
     EXPECT_NEAR(pairs[i].w, rows[i / 2].w, 1e-9);
   }
   const CycleEnergy single = cycle_energy(*one_.problem, single_->orbit), both = cycle_energy(*problem_, both_->orbit);
@@ -178,6 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, Ties,
                          ::testing::Values(Machine{"impact-oscillator", {{"omega", 2.2}}, "omega"},  // impacts
                                            Machine{"vibro-impact", {{"omega", 2.2}}, "omega"},       // and reversals
                                            Machine{"vibro-impact", {{"omega", 1.5}}, "omega"},       // stick, releases
+                                           Machine{"vibro-impact", {{"omega", 0.552}}, "omega"},     // complete chatter
                                            Machine{"bilinear-oscillator", {}, "omega"},              // compliant stops
                                            Machine{"coulomb-oscillator", {}, "omega"},               // stick
                                            Machine{"two-sided-rattle", {}, "omega"},                 // both sides
@@ -208,6 +210,58 @@ TEST(TiesOfCoupledContacts, HaveNoDerivative) {
   EXPECT_FALSE(orbit::differentiable(found.orbit->orbit.shape));
   EXPECT_TRUE(found.orbit->multipliers.empty());
   EXPECT_FALSE(found.orbit->stable());
+}
+
+/// The same parts for each of some bodies.
+ModelDefinition copies(int bodies, const std::string& head, const std::string& parts) {
+  std::string text = "name = 'm'\n" + head + "\n";
+  for (int i = 1; i <= bodies; ++i)
+    for (const char c : parts) text += c == '#' ? std::to_string(i) : std::string(1, c);
+  return ModelDefinition::parse(text, "m.toml");
+}
+
+const std::string belt =
+    "[[coordinate]]\nname = 'x#'\nmass = 1\n[[force]]\non = 'x#'\namplitude = 1\n"
+    "[[force]]\non = 'x#'\namplitude = 0.7297\nharmonic = 0\n"
+    "[[stop]]\nname = 'wall#'\nbetween = ['x#', 'ground']\nclearance = 0\nrestitution = 0.226\n"
+    "[[friction]]\nname = 'pad#'\nbetween = ['x#', 'ground']\nstatic = 0.06\nbelt_speed = 3\n";
+const std::string over_speed =
+    "[[coordinate]]\nname = 'x#'\nmass = 1.432\n[[force]]\non = 'x#'\namplitude = 1.223\n"
+    "[[spring]]\nbetween = ['x#', 'ground']\nstiffness = 0.093\n"
+    "[[stop]]\nname = 'wall#'\nbetween = ['x#', 'ground']\nclearance = 0.371\nrestitution = 0.4\n"
+    "[[friction]]\nname = 'pad#'\nbetween = ['x#', 'ground']\nstatic = 0.285\n"
+    "characteristic = [[0, 0.2565], [0.5, 0.1425], [2, 0.1995]]\n";
+
+/// Slow impacts make much of the rounding of a belt's speed, and an impact turns the piece of its own pad's friction.
+TEST(TiesOfUncoupledContacts, HaveTheMultipliersOfOne) {
+  for (const auto& [head, parts] : {std::pair{"omega = 2.654", belt}, {"omega = 1.623", over_speed}}) {
+    const auto seen = [&](int bodies) {
+      const auto definition = copies(bodies, head, parts);
+      return classify(System(definition.build()), definition.start(), {.transient_periods = 60});
+    };
+    const Classification one = seen(1), two = seen(2);
+    ASSERT_FALSE(one.multipliers.empty()) << head;
+    ASSERT_EQ(two.multipliers.size(), 2 * one.multipliers.size()) << head;
+    EXPECT_NEAR(std::abs(two.multipliers.front()), std::abs(one.multipliers.front()), 1e-9) << head;
+  }
+}
+
+/// How many impacts come before the sum of a chatter is rounding, and so is which of two comes to rest first.
+TEST(TiesOfUncoupledContacts, OrbitOfALongChatterIsFound) {
+  const auto found = [](int bodies) {
+    const auto definition =
+        copies(bodies, "omega = 2.004",
+               "[[coordinate]]\nname = 'x#'\nmass = 1.653\n[[force]]\non = 'x#'\namplitude = 0.956\n"
+               "[[force]]\non = 'x#'\namplitude = 0.60228\nharmonic = 0\n"
+               "[[stop]]\nname = 'wall#'\nbetween = ['x#', 'ground']\nclearance = 0.366\nrestitution = 0.6\n");
+    return settled(definition, {});
+  };
+  const auto one = found(1), two = found(2);
+  ASSERT_TRUE(one);
+  ASSERT_TRUE(two);
+  EXPECT_EQ(one->label, "4-inf-II");
+  EXPECT_EQ(two->label, one->label);
+  EXPECT_TRUE(two->is_motion) << two->why;
 }
 
 }  // namespace

@@ -125,6 +125,7 @@ class Comparison {
         const int sample = n.until > 0.0 && n.sample >= 0 ? n.sample - rule_.steps : n.sample;
         const Key key{turned ? swapped_extreme(n.what) : n.what, renamed(n.of, twin), sample};
         if (n.undetermined || undetermined.contains(key)) continue;
+        if (n.what == "family" && rule_.joined) continue;  // of motions apart there are fewer
         const auto other = others.find(key);
         const std::string what =
             n.what + (n.of.empty() ? "" : " of " + n.of) + (n.sample < 0 ? "" : " at " + std::to_string(n.sample));
@@ -228,14 +229,14 @@ class Comparison {
     return std::string(name(row.kind)) + " of " + row.contact + " at " + shown(row.time) + " with " + shown(row.w);
   }
 
-  /// As sets: each of the first has its own among the second, twice where there are twins.
+  /// As sets: each of the first has its own among the second, twice where there are twins that are not joined.
   void spectrum(const std::string& what, const Spectrum& first, Spectrum second, double unit) {
-    const std::size_t expected = first.size() * twins().size(),
-                      most = expected + static_cast<std::size_t>(rule_.more_directions);
+    const std::size_t each = rule_.joined ? 1 : twins().size(), expected = first.size() * each,
+                      most = first.size() * twins().size() + static_cast<std::size_t>(rule_.more_directions);
     if (second.size() < expected || second.size() > most)
       return note("number of " + what + ": " + std::to_string(expected) + ", " + std::to_string(second.size()), 0.0);
     for (const auto& one : first)
-      for (std::size_t k = 0; k < twins().size(); ++k) {
+      for (std::size_t k = 0; k < each; ++k) {
         const std::complex<double> wanted = one * unit;
         const std::complex<double> there = take_nearest(second, wanted).value_or(std::complex<double>(NAN, NAN));
         const double size = std::max(unit, std::abs(wanted));

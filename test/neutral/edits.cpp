@@ -31,6 +31,7 @@ const std::vector<Edit>& edits() {
       {"zero-impulse", "an impulse of momentum zero", zero_impulse},
       {"machine-at-rest", "an uncoupled machine at rest beside it", machine_at_rest},
       {"twin", "a copy of the machine beside it", twin_machine},
+      {"joined-twin", "a copy beside it, joined by weak springs", joined_twin},
       {"mirror", "the mirrored machine", mirror},
       {"lever", "a coordinate at the other end of a lever", lever},
       {"clock", "another phase and a clock that is later by as much", later_clock},

@@ -19,6 +19,7 @@ struct Rule {
   std::string prefix;                           ///< before every name
   std::set<std::string> rows_apart;             ///< parts whose events are not compared
   std::string twin;         ///< the model is there twice, once with this behind every name; "": once
+  bool joined = false;      ///< the twins act on each other where they move apart
   int steps = 0;            ///< the clock is later by this many instants of `sample_grid`
   double farthest = 1.0;    ///< a pair's only stop may be so far away, and the pair is rounded so
   int more_directions = 0;  ///< multipliers or eigenvalues that the first answer has not
@@ -69,6 +70,7 @@ std::optional<Edited> zero_signal(const Definition& file, campaign::Random& rand
 std::optional<Edited> zero_impulse(const Definition& file, campaign::Random& random);
 std::optional<Edited> machine_at_rest(const Definition& file, campaign::Random& random);
 std::optional<Edited> twin_machine(const Definition& file, campaign::Random& random);
+std::optional<Edited> joined_twin(const Definition& file, campaign::Random& random);
 std::optional<Edited> mirror(const Definition& file, campaign::Random& random);
 std::optional<Edited> lever(const Definition& file, campaign::Random& random);
 std::optional<Edited> later_clock(const Definition& file, campaign::Random& random);

@@ -279,8 +279,8 @@ std::optional<std::string> sensitivities_are_differences(const ModelDefinition& 
   const auto span = find_span(definition, {}, system, definition.start(), wish);
   if (!span->cycle || !span->cycle->isolated() || !span->cycle->stable()) return std::nullopt;
   std::vector<Quantity> of = functions_of_time(system.model());
-  if (flow::translation_count(system.model(), system.compiled().frame()) >
-      0)  // of two images a cycle has either's place
+  // A cycle that may be moved along has no place of its own.
+  if (flow::translation_count(system.model(), system.compiled().frame()) > 0)
     std::erase_if(of, [](const Quantity& q) { return q.kind == Kind::displacement; });
   const Parameter& by = definition.parameters().front();
   const std::vector<Measured> rates = measure_rates(definition, {}, {by.name}, span->cycle->orbit, of);

@@ -89,6 +89,21 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
   return edited;
 }
 
+/// Twins move alike, so that the springs have no force until one moves beside the other. The multipliers of one machine
+/// are those of moving alike, and there are as many others.
+std::optional<Edited> joined_twin(const Definition& file, campaign::Random& random) {
+  std::optional<Edited> edited = twin_machine(file, random);
+  edited->rule.joined = true;
+  const double stiffness = random.decades(-3.0, -2.0);  // such a spring hardly makes a stable motion unstable
+  for (int i = 0; i < coordinates(file); ++i) {
+    Part spring;
+    spring.a = i, spring.b = coordinates(file) + i;
+    spring.fields = {{"stiffness", number(stiffness)}};
+    parts(edited->file, "spring").push_back(spring);
+  }
+  return edited;
+}
+
 /// x -> -x: every pair has its ends exchanged, so that its displacement and its forces are what they were.
 std::optional<Edited> mirror(const Definition& file, campaign::Random&) {
   Edited edited{file, {}};

@@ -39,7 +39,7 @@ const std::vector<Exclusion>& exclusions() {
   static const std::vector<Exclusion> all = {
       {{"clock"}, {Verb::measure}, always, "statistics of another stretch of time"},
       {{"clock"}, {Verb::modes}, always, "the start decides which pieces of the characteristics act"},
-      {{"twin"}, settled, without_drive, "two free cycles have phases of their own: one of a family"},
+      {{"twin", "joined-twin"}, settled, without_drive, "two free cycles have phases of their own: one of a family"},
   };
   return all;
 }
@@ -50,16 +50,6 @@ const std::vector<Exclusion>& faults() {
        all_verbs,
        steps_down_twice,
        "several modes fit where static friction is above kinetic, and the file's order decides"},
-      {{"twin"},
-       {Verb::orbit, Verb::branch, Verb::curve},
-       always,
-       "a twin's cycle is named, and its equations are not solved",
-       {"orbit: yes, no", "branch: yes, no"}},
-      {{"twin"},
-       {Verb::classify},
-       always,
-       "twins in a complete chatter have no multipliers",
-       {"number of multipliers"}},
       {{"units"},
        {Verb::branch},
        always,

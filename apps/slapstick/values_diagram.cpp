@@ -27,37 +27,43 @@ bool are_statistics(const std::string& y) {
   return true;
 }
 
-ValuesDiagram::ValuesDiagram(const ChosenModel& chosen, const std::string& y, const std::string& at, const Sweep& sweep)
-    : chosen_(chosen), sweep_(sweep) {
-  read_at(at.empty() ? (stop_contacts(chosen.model).empty() ? "period" : "impact") : at);
-  for (const Wanted& one : parse_wanted("--y", y, quantities(chosen.definition, chosen.overrides))) {
-    const Quantity& quantity = one.quantity;
-    if (quantity.kind == Quantity::Kind::parameter)
-      throw InputError("--y: " + in_quotes(quantity.name) + " is a parameter, which no motion changes");
-    const bool speed = quantity.kind == Quantity::Kind::speed && at_ == ReadAt::impacts;
-    if (quantity.at_impacts() && !speed)
-      throw InputError("--y: " + in_quotes(quantity.name) + " is a quantity at impacts: give it a statistic, as " +
-                       quantity.name + ":mean");
-    of_.push_back(quantity);
+namespace {
+
+/// What `ask` says of an option's value, behind the option's name.
+template <class Ask>
+auto with_option(const char* option, const Ask& ask) {
+  try {
+    return ask();
+  } catch (const InputError& error) {
+    throw InputError(option + std::string(error.what()));
   }
 }
 
-void ValuesDiagram::read_at(const std::string& at) {
-  noun_ = at;
-  if (at == "period") {
-    at_ = ReadAt::periods;
-  } else if (at != "impact") {
-    at_ = ReadAt::events;
-    event_ = event_choice(at, System(chosen_.model), "--at");
-  } else if (stop_contacts(chosen_.model).empty()) {
-    throw InputError("--at impact: model " + in_quotes(chosen_.model.name) + " has no stop; --at period needs none");
+sweep::InstantChoice instants(const Model& model, const std::string& at) {
+  const System system(model);
+  if (at != "" && at != "impact" && at != "period") return {ReadAt::events, event_choice(at, system, "--at")};
+  return with_option("--at ", [&] { return sweep::parse_instants(at, system); });
+}
+
+}  // namespace
+
+ValuesDiagram::ValuesDiagram(const ChosenModel& chosen, const std::string& y, const std::string& at, const Sweep& sweep)
+    : chosen_(chosen),
+      sweep_(sweep),
+      instants_(instants(chosen.model, at)),
+      noun_(!at.empty()                            ? at
+            : instants_.read_at == ReadAt::periods ? "period"
+                                                   : "impact") {
+  for (const Wanted& one : parse_wanted("--y", y, quantities(chosen.definition, chosen.overrides))) {
+    with_option("--y: ", [&] { sweep::check_value_at(one.quantity, instants_.read_at); });
+    of_.push_back(one.quantity);
   }
 }
 
 void ValuesDiagram::complete(sweep::DiagramProblem& problem) const {
   problem.values_of = of_;
-  problem.read_at = at_;
-  problem.event = event_;
+  problem.read_at = instants_.read_at;
+  problem.event = instants_.event;
 }
 
 std::vector<std::string> ValuesDiagram::shown() const {

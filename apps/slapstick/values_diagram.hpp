@@ -28,14 +28,11 @@ class ValuesDiagram {
   [[nodiscard]] const std::string& noun() const { return noun_; }
 
  private:
-  void read_at(const std::string& at);
-
   const ChosenModel& chosen_;
   const Sweep& sweep_;
   std::vector<Quantity> of_;
-  sweep::ReadAt at_ = sweep::ReadAt::impacts;
-  EventChoice event_;
-  std::string noun_ = "impact";
+  sweep::InstantChoice instants_;
+  std::string noun_;
 };
 
 /// Has one of the words of --y a statistic? @throws InputError if some have and others have none

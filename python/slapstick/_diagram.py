@@ -16,7 +16,7 @@ from ._core import InputError
 from ._model import Model, Start, Values, given_to, model_of, numbers, start_of, stops_of, sweep_of
 from ._obeys import obeys
 from ._progress import Progress
-from ._quantity import statistics_of
+from ._quantity import statistics_of, wanted_of
 from ._result import Floats, Given, GivenWords, Interrupted, Result, axes
 from ._tables import categorical, state_columns, words
 
@@ -31,7 +31,8 @@ class Diagram(Result):
     direction: 'up' or 'down', as the state was carried; contact: the stop; y: the state just before, shape (2 n, k).
 
     With statistics of quantities in place of impacts the columns are empty but for value and direction, with a row for
-    each value that did not fail, and `measured["F_stop:rms"]` is a column of these rows.
+    each value that did not fail, and `measured["F_stop:rms"]` is a column of these rows. With values of quantities at
+    instants there is a row for each instant, and the column is `measured["x1"]`.
     """
 
     def __init__(
@@ -41,7 +42,7 @@ class Diagram(Result):
         self._core, self.parameter = core, parameter
         self._free = (parameter,)
         words_of: list[str] = options.get("measured", [])
-        #: "Q:STAT" to its column, shape (k,); empty of a diagram of impacts.
+        #: "Q:STAT", or "Q" at instants, to its column, shape (k,); empty of a diagram of impacts.
         self.measured: dict[str, Floats] = {word: core.measured(k) for k, word in enumerate(words_of)}
 
     @cached_property
@@ -103,7 +104,7 @@ class Diagram(Result):
         return xr.Dataset({name: (along, column) for name, column in columns.items()}, attrs=about)
 
     def plot(self, ax: Any = None, y: str = "") -> Any:
-        """Draws `y` over the parameter: 'w' (the default), 'flight', 'sliding' or 'phase' of every impact, or a "Q:STAT" of
+        """Draws `y` over the parameter: 'w' (the default), 'flight', 'sliding' or 'phase' of every impact, or a column of
         `measured` (the first). Returns the axes."""
         ax = axes(ax)
         y = y or next(iter(self.measured), "w")
@@ -112,8 +113,9 @@ class Diagram(Result):
             of = self._direction_codes == code
             if of.any():
                 label = ("up", "down")[code]
-                size = 4 * size if self.measured else size
-                style = {"markersize": size, "markeredgewidth": 0, "rasterized": not self.measured}
+                statistic = ":" in y
+                size = 4 * size if statistic else size
+                style = {"markersize": size, "markeredgewidth": 0, "rasterized": not statistic}
                 ax.plot(self.value[of], column[of], "o", color=colour, label=label, **style)
         ax.set_xlabel(self.parameter)
         ax.set_ylabel(LABELS.get(y, y))
@@ -142,6 +144,7 @@ def diagram(
     most_periods: int = 5000,
     stops: str | Sequence[str] = (),
     y: str | Sequence[str] = (),
+    at: str = "",
     periods: int = 0,
     start: Start = None,
     threads: int = 0,
@@ -152,12 +155,12 @@ def diagram(
     """A bifurcation diagram: the impacts of the attractor at many values of one parameter, on all cores.
 
     The parameter is a keyword: `omega=(0.5, 10, 2400)` are 2400 values, both ends included; an array or a list gives
-    the values themselves, increasing.
-    direction: 'up', 'down' or 'both', in which the state is carried; carry: False begins each value at the start.
-    transient: forcing periods before the impacts of a value are recorded (None: 500, or what comes before the record of a
-    signal); impacts: how many; most_periods: the recording ends here if they are rare. stops: whose impacts (all).
+    the values themselves, increasing. direction: 'up', 'down' or 'both', in which the state is carried; carry: False
+    begins each value at the start. transient: forcing periods before recording (None: 500, or what comes before the
+    record of a signal); impacts: how many; most_periods: the recording ends here if they are rare. stops: whose (all).
     y: "Q:STAT,.." or a list of such words: statistics over `periods` (0: 100, or the record) in place of impacts, as of
-    `slapstick.measure`; then a model needs no stop. threads: 0 for all; the result is the same.
+    `slapstick.measure`. "Q,..": values at `impacts` instants, `at`: 'impact', 'period' (phase 0) or an event as
+    'stick:belt' (impact; without stops period). threads: 0 for all; the result is the same.
 
     Raises InputError for what can be known to be wrong before the work. A value that fails is left out, stands in
     `failures`, and is a RuntimeWarning.
@@ -174,22 +177,28 @@ def diagram(
     if not carry and direction == "both":
         raise InputError("direction: with carry=False, up and down are the same; choose one, or carry=True")
     options: dict[str, Any] = {"direction": direction, "carry": carry, "transient": transient, "impacts": impacts}
-    options |= {"most_periods": most_periods, "stops": stops, "start": start, "y": y, "periods": periods}
-    options["measured"], measured = measure_of(y, chosen, fixed | {name: grid[0]}, periods)
-    arguments = (chosen._core, fixed, name, grid, start_of(start), direction, "carry" if carry else "reset")
-    arguments_too = (transient, impacts, most_periods, stops_of(stops), threads, measured)
+    options |= {"most_periods": most_periods, "stops": stops, "start": start, "y": y, "at": at, "periods": periods}
+    options["measured"], measured = measure_of(y, chosen, fixed | {name: grid[0]}, periods, at)
+    about = (chosen._core, fixed, name, grid, start_of(start), direction, "carry" if carry else "reset", transient)
     total = len(grid) * (2 if direction == "both" else 1)
-    core = _progress.run(_core.diagram, (*arguments, *arguments_too), "values", total, progress)
+    arguments = (*about, impacts, most_periods, stops_of(stops), threads, measured)
+    core = _progress.run(_core.diagram, arguments, "values", total, progress)
     return reported(Diagram(core, name, chosen, fixed, options), total)
 
 
 def measure_of(
-    y: str | Sequence[str], chosen: Model, values: dict[str, float], periods: int
+    y: str | Sequence[str], chosen: Model, values: dict[str, float], periods: int, at: str
 ) -> tuple[list[str], _core.DiagramMeasure]:
     """The words of `y`, and what the extension is given."""
-    wanted = statistics_of("y", y, chosen, values) if y else []
-    words_of = [f"{quantity.name}:{statistic}" for quantity, statistic in wanted]
-    return words_of, _core.DiagramMeasure([quantity for quantity, _ in wanted], [word for _, word in wanted], periods)
+    wanted = wanted_of(y, chosen, values) if y else []
+    of = [quantity for quantity, _ in wanted]
+    if not any(statistic for _, statistic in wanted):
+        return [quantity.name for quantity in of], _core.DiagramMeasure(of, [], periods, at)
+    if at or not all(statistic for _, statistic in wanted):
+        raise InputError("y: statistics, as 'x1:rms', or values at the instants of `at`, as 'x1': choose one")
+    wanted = statistics_of("y", y, chosen, values)
+    words = [f"{quantity.name}:{statistic}" for quantity, statistic in wanted]
+    return words, _core.DiagramMeasure(of, [statistic for _, statistic in wanted], periods, at)
 
 
 def swept(given: Values) -> tuple[str, list[float]]:
@@ -208,12 +217,13 @@ def swept(given: Values) -> tuple[str, list[float]]:
 
 def reported(found: Diagram, total: int) -> Diagram:
     """Says what the columns cannot."""
+    noun = found.options["at"] or "impact"
     if not found.complete:
         raise Interrupted(found)
     for rows, words_of in (
         (found.failures, f"{len(found.failures)} of {total} values failed"),
         (found.notes, f"{len(found.notes)} values"),
-        (found._core.empty, f"no impacts at {len(found._core.empty)} of the values"),
+        (found._core.empty, f"no {noun}s at {len(found._core.empty)} of the values"),
     ):
         if rows:
             value, text = rows[0]

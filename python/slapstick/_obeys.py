@@ -21,8 +21,9 @@ NOT_THE_OPTION = ("start",)
 def obeys(verb: str, least: Mapping[str, int] = {}, **called: str) -> Callable[[F], F]:
     """Of a function: its keywords obey the rules of a verb.
 
-    least: counts that Python allows to be less. called: the option of a keyword that has another name. A keyword that has its default counts as not given, and one
-    that no rule speaks of is left to the function. Whole numbers may be floats.
+    least: counts that Python allows to be less. called: the option of a keyword that has another name.
+    A keyword that has its default counts as not given, and one that no rule speaks of is left to the function.
+    Whole numbers may be floats.
     """
 
     def of(call: F) -> F:

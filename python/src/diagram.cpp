@@ -33,19 +33,28 @@ struct Diagram {
   std::vector<std::vector<double>> measured;
 };
 
-/// What is measured in place of impacts: quantities, and of each a statistic.
+/// What is shown in place of impacts: quantities, and of each a statistic, or no statistics: values at instants.
 struct Measure {
   std::vector<Quantity> of;
   std::vector<std::string> statistics;
   int periods = 0;
+  std::string at;  ///< sweep::parse_instants
+  [[nodiscard]] bool reads() const { return !of.empty() && statistics.empty(); }
 };
 
 void add_measured(Diagram& into, const sweep::DiagramPoint& point, double value, const Measure& measure) {
-  if (point.of.empty()) return;
-  into.measured_at.push_back(value);
-  into.measured_direction.push_back(point.direction == sweep::Direction::up ? 0 : 1);
-  for (std::size_t k = 0; k < measure.of.size(); ++k)
+  const std::size_t columns = measure.of.size();
+  const auto begin_row = [&] {
+    into.measured_at.push_back(value);
+    into.measured_direction.push_back(point.direction == sweep::Direction::up ? 0 : 1);
+  };
+  if (!point.of.empty()) begin_row();
+  for (std::size_t k = 0; k < point.of.size(); ++k)
     into.measured[k].push_back(statistic(point.of[k], measure.statistics[k]));
+  for (std::size_t i = 0; i < point.values.size(); ++i) {
+    if (i % columns == 0) begin_row();
+    into.measured[i % columns].push_back(point.values[i]);
+  }
 }
 
 void add_rows(Diagram& into, const sweep::DiagramPoint& point, double value, std::int32_t index) {
@@ -76,8 +85,8 @@ void add_points(Diagram& into, const sweep::Diagram& found, const Measure& measu
     into.directions.push_back(direction);
     if (!point.failure.empty()) into.failures.emplace_back(value, point.failure);
     if (!point.note.empty()) into.notes.emplace_back(value, point.note);
-    if (point.failure.empty() && point.impacts.size() == 0 && measure.of.empty())
-      into.empty.emplace_back(value, direction);
+    const bool rows = measure.reads() ? !point.values.empty() : !measure.of.empty() || point.impacts.size() > 0;
+    if (point.failure.empty() && !rows) into.empty.emplace_back(value, direction);
   }
 }
 
@@ -155,6 +164,23 @@ class Sweep {
   std::optional<Start> start_;
 };
 
+/// Values at instants. @throws InputError naming `at` or `y`
+void read_at(const Measure& measure, const Model& model, sweep::DiagramProblem& problem) {
+  const std::string* argument = nullptr;
+  const std::string at = "at: ", y = "y: ";
+  try {
+    argument = &at;
+    const sweep::InstantChoice instants = sweep::parse_instants(measure.at, System(model));
+    argument = &y;
+    for (const Quantity& quantity : measure.of) sweep::check_value_at(quantity, instants.read_at);
+    problem.values_of = measure.of;
+    problem.read_at = instants.read_at;
+    problem.event = instants.event;
+  } catch (const InputError& error) {
+    throw InputError(*argument + error.what());
+  }
+}
+
 std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overrides& fixed, const std::string& name,
                                  const std::vector<double>& values, const std::optional<Start>& start,
                                  const std::string& direction, const std::string& rule, std::optional<double> transient,
@@ -162,12 +188,13 @@ std::unique_ptr<Diagram> diagram(const ModelDefinition& definition, const Overri
                                  const Measure& measure, nb::object progress) {
   auto into = std::make_unique<Diagram>();
   into->measured.resize(measure.of.size());
-  for (std::size_t k = 0; k < measure.of.size(); ++k) check_statistic_of_stretch(measure.of[k], measure.statistics[k]);
+  for (std::size_t k = 0; k < measure.statistics.size(); ++k)
+    check_statistic_of_stretch(measure.of[k], measure.statistics[k]);
   const Sweep sweep(definition, fixed, name, values, start);
   const Model model = sweep.check(measure.of.empty());
   sweep::DiagramProblem problem = sweep.problem({direction, rule, transient, impacts, most_periods, stops, threads});
   problem.stops = StopChoice(model, stops);
-  problem.of = measure.of;
+  measure.reads() ? read_at(measure, model, problem) : static_cast<void>(problem.of = measure.of);
   problem.measured_periods = measure.periods;
   Watch watch(std::move(progress));
   problem.cancel = watch.cancel();
@@ -206,13 +233,14 @@ void bind_diagram(nb::module_& module) {
       .def(
           "measured", [](Diagram& self, std::size_t k) { return column(self.measured.at(k)); }, "k"_a)
       .def_ro("complete", &Diagram::complete);
-  nb::class_<Measure>(module, "DiagramMeasure", "Statistics that a diagram shows in place of impacts.")
+  nb::class_<Measure>(module, "DiagramMeasure", "What a diagram shows in place of impacts.")
       .def(
           "__init__",
-          [](Measure* self, std::vector<Quantity> of, std::vector<std::string> statistics, int periods) {
-            new (self) Measure{std::move(of), std::move(statistics), periods};
+          [](Measure* self, std::vector<Quantity> of, std::vector<std::string> statistics, int periods,
+             std::string at) {
+            new (self) Measure{std::move(of), std::move(statistics), periods, std::move(at)};
           },
-          "of"_a, "statistics"_a, "periods"_a);
+          "of"_a, "statistics"_a, "periods"_a, "at"_a);
   module.def("diagram", &diagram, "definition"_a, "fixed"_a, "name"_a, "values"_a, "start"_a.none(), "direction"_a,
              "rule"_a, "transient"_a.none(), "impacts"_a, "most_periods"_a, "stops"_a, "threads"_a, "measure"_a,
              "progress"_a.none());

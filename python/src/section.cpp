@@ -6,6 +6,7 @@
 #include "chosen.hpp"
 #include "names.hpp"
 #include "slapstick/base/error.hpp"
+#include "slapstick/quantity/reader.hpp"
 #include "slapstick/section/event_section.hpp"
 #include "slapstick/section/impact_section.hpp"
 #include "slapstick/section/stroboscopic_section.hpp"
@@ -21,8 +22,13 @@ struct Section {
   Words contact;
   double period = 0.0;
   std::size_t width = 0;
+  std::vector<std::vector<double>> of;  ///< a column for each quantity that is asked for
   bool complete = true, whole = true;
   double periods = 0.0;  ///< run through after the transient
+
+  void add(const std::vector<double>& quantities) {
+    for (std::size_t k = 0; k < quantities.size(); ++k) of[k].push_back(quantities[k]);
+  }
 };
 
 struct Wish {
@@ -52,7 +58,7 @@ void collect(Section& into, const Wish& wish, const Motion& motion, Watch& watch
   into.periods = motion.time().since({wish.transient, 0.0});
 }
 
-void impacts(Section& into, const Wish& wish, Motion start, const StopChoice& stops, Watch& watch) {
+void impacts(Section& into, const Wish& wish, Motion start, const StopChoice& stops, Reader& reader, Watch& watch) {
   ImpactSection section(std::move(start), stops);
   SectionPoint point;
   const auto leave_out = [&](Instant stage) {
@@ -73,13 +79,14 @@ void impacts(Section& into, const Wish& wish, Motion start, const StopChoice& st
     into.w.push_back(point.w);
     into.flight.push_back(point.flight);
     into.sliding.push_back(point.sliding);
+    into.add(reader.before(section.motion()));
     into.contact.codes.push_back(point.contact);
     into.state.insert(into.state.end(), point.state.begin(), point.state.end());
     return true;
   });
 }
 
-void strobe(Section& into, const Wish& wish, Motion start, double phase, Watch& watch) {
+void strobe(Section& into, const Wish& wish, Motion start, double phase, Reader& reader, Watch& watch) {
   StroboscopicSection section(std::move(start), phase);
   StroboscopicPoint point;
   const System& system = section.motion().system();
@@ -89,12 +96,13 @@ void strobe(Section& into, const Wish& wish, Motion start, double phase, Watch& 
     if (i < wish.transient) continue;
     into.t.push_back(point.time.seconds(system.period()));
     into.phase.push_back(point.time.fraction);
+    into.add(reader.now(section.motion()));
     into.state.insert(into.state.end(), point.state.begin(), point.state.end());
     into.mode.add(system, point.mode);
   }
 }
 
-void events(Section& into, const Wish& wish, Motion motion, const EventChoice& choice, Watch& watch) {
+void events(Section& into, const Wish& wish, Motion motion, const EventChoice& choice, Reader& reader, Watch& watch) {
   const Instant begin{wish.transient, 0.0};
   for (Instant stage; stage < begin;) {
     stage = next_stage(motion.system(), stage, begin);
@@ -109,6 +117,7 @@ void events(Section& into, const Wish& wish, Motion motion, const EventChoice& c
     if (!section.next(end, point, watch.cancel())) return false;
     into.t.push_back(point.time.seconds(period));
     into.return_time.push_back(point.return_time);
+    into.add(reader.before(section.motion()));
     into.w.push_back(point.w);
     into.contact.codes.push_back(point.contact);
     into.state.insert(into.state.end(), point.state.begin(), point.state.end());
@@ -119,8 +128,13 @@ void events(Section& into, const Wish& wish, Motion motion, const EventChoice& c
 /// Loads, then runs one of the sections above.
 template <class Take>
 std::unique_ptr<Section> take(const ModelDefinition& definition, const Overrides& values,
-                              const std::optional<Start>& start, nb::object progress, const Take& take_points) {
+                              const std::optional<Start>& start, const std::vector<Quantity>& of, nb::object progress,
+                              const Take& take_points) {
+  for (const Quantity& quantity : of)
+    if (quantity.at_impacts())
+      throw InputError("of: '" + quantity.name + "' is a quantity at impacts: no function of time");
   auto into = std::make_unique<Section>();
+  into->of.resize(of.size());
   Watch watch(std::move(progress));
   watch.run([&] {
     const System system(build(definition, values));
@@ -128,7 +142,8 @@ std::unique_ptr<Section> take(const ModelDefinition& definition, const Overrides
     into->period = system.period();
     into->width = state.size();
     into->contact.names = contact_names(system.model());
-    take_points(*into, system, Motion(system, state), watch);
+    Reader reader(system, of);
+    take_points(*into, system, Motion(system, state), reader, watch);
   });
   into->complete = watch.finish(true);
   return into;
@@ -137,34 +152,35 @@ std::unique_ptr<Section> take(const ModelDefinition& definition, const Overrides
 std::unique_ptr<Section> impact_section(const ModelDefinition& definition, const Overrides& values,
                                         const std::optional<Start>& start, std::int64_t transient, std::int64_t points,
                                         std::int64_t most_periods, std::int64_t patience,
-                                        const std::vector<std::string>& stops, nb::object progress) {
+                                        const std::vector<std::string>& stops, const std::vector<Quantity>& of,
+                                        nb::object progress) {
   const Wish wish{transient, points, most_periods, patience};
-  return take(definition, values, start, std::move(progress),
-              [&](Section& into, const System& system, Motion motion, Watch& watch) {
+  return take(definition, values, start, of, std::move(progress),
+              [&](Section& into, const System& system, Motion motion, Reader& reader, Watch& watch) {
                 if (stop_contacts(system.model()).empty())
                   throw InputError("model '" + system.model().name + "' has no stop");
-                impacts(into, wish, std::move(motion), StopChoice(system.model(), stops), watch);
+                impacts(into, wish, std::move(motion), StopChoice(system.model(), stops), reader, watch);
               });
 }
 
 std::unique_ptr<Section> strobe_section(const ModelDefinition& definition, const Overrides& values,
                                         const std::optional<Start>& start, std::int64_t transient, std::int64_t points,
-                                        double phase, nb::object progress) {
+                                        double phase, const std::vector<Quantity>& of, nb::object progress) {
   const Wish wish{transient, points, 0, 0};
-  return take(definition, values, start, std::move(progress),
-              [&](Section& into, const System&, Motion motion, Watch& watch) {
-                strobe(into, wish, std::move(motion), phase, watch);
+  return take(definition, values, start, of, std::move(progress),
+              [&](Section& into, const System&, Motion motion, Reader& reader, Watch& watch) {
+                strobe(into, wish, std::move(motion), phase, reader, watch);
               });
 }
 
 std::unique_ptr<Section> event_section(const ModelDefinition& definition, const Overrides& values,
                                        const std::optional<Start>& start, std::int64_t transient, std::int64_t points,
                                        std::int64_t most_periods, std::int64_t patience, const std::string& event,
-                                       nb::object progress) {
+                                       const std::vector<Quantity>& of, nb::object progress) {
   const Wish wish{transient, points, most_periods, patience};
-  return take(definition, values, start, std::move(progress),
-              [&](Section& into, const System& system, Motion motion, Watch& watch) {
-                events(into, wish, std::move(motion), parse_event_choice(event, system), watch);
+  return take(definition, values, start, of, std::move(progress),
+              [&](Section& into, const System& system, Motion motion, Reader& reader, Watch& watch) {
+                events(into, wish, std::move(motion), parse_event_choice(event, system), reader, watch);
               });
 }
 
@@ -183,16 +199,18 @@ void bind_section(nb::module_& module) {
       .def_prop_ro("mode_names", [](const Section& self) { return self.mode.words.names; })
       .def_prop_ro("contact_codes", [](Section& self) { return column(self.contact.codes); })
       .def_prop_ro("contact_names", [](const Section& self) { return self.contact.names; })
+      .def(
+          "of", [](Section& self, std::size_t k) { return column(self.of.at(k)); }, "k"_a)
       .def_ro("period", &Section::period)
       .def_ro("complete", &Section::complete)
       .def_ro("whole", &Section::whole)
       .def_ro("periods", &Section::periods);
   module.def("impact_section", &impact_section, "definition"_a, "values"_a, "start"_a.none(), "transient"_a, "points"_a,
-             "most_periods"_a, "patience"_a, "stops"_a, "progress"_a.none());
+             "most_periods"_a, "patience"_a, "stops"_a, "of"_a, "progress"_a.none());
   module.def("strobe_section", &strobe_section, "definition"_a, "values"_a, "start"_a.none(), "transient"_a, "points"_a,
-             "phase"_a, "progress"_a.none());
+             "phase"_a, "of"_a, "progress"_a.none());
   module.def("event_section", &event_section, "definition"_a, "values"_a, "start"_a.none(), "transient"_a, "points"_a,
-             "most_periods"_a, "patience"_a, "event"_a, "progress"_a.none());
+             "most_periods"_a, "patience"_a, "event"_a, "of"_a, "progress"_a.none());
 }
 
 }  // namespace slapstick::python

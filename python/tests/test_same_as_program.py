@@ -253,8 +253,41 @@ def test_diagram_of_statistics_has_every_number_of_the_program(program):
     for name, column in found.measured.items():
         assert column.tolist() == columns[name].tolist()
     assert list(found.to_pandas().columns) == ["omega", "direction", *y.split(",")]
-    with pytest.raises(slapstick.InputError, match="needs a statistic"):
-        slapstick.diagram("coulomb-oscillator", omega=(0.5, 1.5, 5), y="x")
+
+
+@pytest.mark.parametrize(("model", "at", "y"), [("coulomb-oscillator", "", "x,F_friction"), ("vibro-impact", "", "x1,w"), ("vibro-impact", "stick", "x1"),
+                                                ("vibro-impact", "period", "v1,kinetic_energy")])
+def test_diagram_of_values_at_instants_has_every_number_of_the_program(program, model, at, y):
+    words = ["--sweep", "omega=0.5:1.5:5", "--direction", "both", "--y", y, "--impacts", 7, "--transient", 100]
+    columns = program.table(program("diagram", model, *words, *(["--at", at] if at else [])).stdout)
+    found = slapstick.diagram(model, omega=(0.5, 1.5, 5), direction="both", y=y, at=at, impacts=7, transient=100)
+    assert found.value.tolist() == columns["omega"].tolist()
+    assert found.direction.tolist() == columns["direction"].tolist()
+    for name in y.split(","):
+        assert found.measured[name].tolist() == columns[name].tolist()
+    assert list(found.to_pandas().columns) == ["omega", "direction", *y.split(",")]
+
+
+@pytest.mark.parametrize(("section", "words"), [("impact", {}), ("stroboscopic", {"phase": 0.25}), ("event", {"event": "stick"})])
+def test_points_have_the_quantities_of_the_program(program, section, words):
+    options = [part for name, value in words.items() for part in (f"--{name}", value)]
+    printed = program("poincare", "vibro-impact", "--set", "omega=1.5", "--section", section, *options, "--points", 20, "--of", "a1,F_friction")
+    columns = program.table(printed.stdout)
+    found = slapstick.poincare("vibro-impact", omega=1.5, section=section, points=20, of="a1,F_friction", **words)
+    assert list(found.of) == ["a1", "F_friction"]
+    for name, column in found.of.items():
+        assert column.tolist() == columns[name].tolist() == found.to_pandas()[name].tolist()
+    for wrong, said in (("w", "quantity at impacts"), ("a1:rms", "values are wanted")):
+        with pytest.raises(slapstick.InputError, match=said):
+            slapstick.poincare("vibro-impact", omega=1.5, section=section, of=wrong, **words)
+
+
+def test_diagram_at_instants_says_what_is_wrong():
+    sweep = {"omega": (0.5, 1.5, 3)}
+    for y, at, said in (("x1,v1:rms", "", "y: statistics, as 'x1:rms', or values"), ("x1:rms", "stick", "y: statistics"), ("impulse", "", "y: 'impulse' is a quantity at"),
+                        ("x1", "bang", "at: "), ("omega", "", "y: 'omega' is a parameter")):
+        with pytest.raises(slapstick.InputError, match=said):
+            slapstick.diagram("vibro-impact", y=y, at=at, **sweep)
 
 
 def test_branch_of_statistics_has_every_number_of_the_program(program):

@@ -127,6 +127,23 @@ class Run {
 
 }  // namespace
 
+InstantChoice parse_instants(const std::string& text, const System& system) {
+  const bool stops = !stop_contacts(system.model()).empty();
+  if (text == "period" || (text.empty() && !stops)) return {ReadAt::periods};
+  if (!text.empty() && text != "impact") return {ReadAt::events, parse_event_choice(text, system)};
+  if (!stops) throw InputError("impact: model '" + system.model().name + "' has no stop; 'period' needs none");
+  return {ReadAt::impacts};
+}
+
+void check_value_at(const Quantity& quantity, ReadAt instants) {
+  if (quantity.kind == Quantity::Kind::parameter)
+    throw InputError("'" + quantity.name + "' is a parameter, which no motion changes");
+  const bool speed = quantity.kind == Quantity::Kind::speed && instants == ReadAt::impacts;
+  if (quantity.at_impacts() && !speed)
+    throw InputError("'" + quantity.name + "' is a quantity at impacts: give it a statistic, as " + quantity.name +
+                     ":mean");
+}
+
 Diagram run_diagram(const DiagramProblem& problem) {
   check(problem);
   return Run(problem)();

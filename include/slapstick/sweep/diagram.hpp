@@ -32,6 +32,17 @@ enum class StartRule { carry, reset };
 /// (without forcing at every unit of time), or just before events.
 enum class ReadAt { impacts, periods, events };
 
+struct InstantChoice {
+  ReadAt read_at = ReadAt::impacts;
+  EventChoice event = {};  ///< of ReadAt::events
+};
+
+/// Reads "impact", "period", or an event as "stick:belt"; "" is impact, of a model without stops period.
+/// @throws InputError  no stop for "impact"; as parse_event_choice
+[[nodiscard]] InstantChoice parse_instants(const std::string& text, const System& system);
+/// @throws InputError  for a quantity that has no value at such instants, a parameter among them
+void check_value_at(const Quantity& quantity, ReadAt instants);
+
 struct DiagramPoint;
 
 struct DiagramProblem {

@@ -138,15 +138,20 @@ TEST(SliderTies, SmallSwingsDieOutAtOnePlaceFromEachStart) {
           link("spring", "x", "stiffness = 1.227") + link("damper", "x", "coefficient = 0.1045") +
           slider("a", "x", 0.5, 0.429) + slider("b", "x", 0.5, 0.4),
       "m.toml");
-  const orbit::Branch first = followed(definition, "amplitude", 1.0, 1.0, 1.7);
-  ASSERT_EQ(first.special.size(), 5U);
-  for (const double start : {1.6, 1.7}) {
-    const orbit::Branch branch = followed(definition, "amplitude", start, 1.0, 1.7);
-    EXPECT_FALSE(branch.failed()) << start << ": " << orbit::ended(branch);
-    ASSERT_EQ(branch.special.size(), 5U) << start;
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(branch.special[i].value, first.special[i].value, 1e-12) << start;
-    EXPECT_EQ(branch.special[4].passage, orbit::Passage::persistence) << start;
+  const auto branch_from = [&](double start, double step) {
+    const auto first = settled(definition, {{"amplitude", start}});
+    orbit::Orbit from = first.value().orbit;
+    from.values = {start};
+    return orbit::follow(*orbit::pose(definition.family({"amplitude"}), {start}), from,
+                         {.from = 1.5, .to = 1.8, .step = step, .longest_step = step});
+  };
+  const orbit::Branch a = branch_from(1.6, 0.1), b = branch_from(1.7, 0.3);
+  for (const orbit::Branch* branch : {&a, &b}) {
+    EXPECT_FALSE(branch->failed()) << orbit::ended(*branch);
+    ASSERT_EQ(branch->special.size(), 2U);
+    EXPECT_EQ(branch->special[1].passage, orbit::Passage::persistence);
   }
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(a.special[i].value, b.special[i].value, 1e-12) << i;
 }
 
 /// A motion that grows draws a slider along until it is just not drawn along any more. The cycle touches the limit and

@@ -44,6 +44,7 @@ class Bounce {
   [[nodiscard]] Numbers numbers(const VectorXd& x, double t) const {
     const Jet before = extended(set_, lines_, x, t);
     Leg rest;
+    rest.states = closed_;
     rest.lines = lines_;
     rest.ending = Ending::onset;
     rest.contact = stop_;
@@ -196,15 +197,22 @@ Orbit with_more_impacts(const ModeSet& set, Orbit orbit, int count, const Bounce
 }
 
 /// Could it be a motion? All that ends a leg must be positive within, except for the flights of the burst, which the
-/// fixed point keeps apart.
+/// fixed point keeps apart. A slider of its pair may touch its limit at the stop, where the first impact has drawn it.
 bool is_possible(const Problem& problem, Orbit orbit) {
+  const mode::Frame& frame = problem.base().compiled().frame();
   const Leg flight = orbit.shape.legs.end()[-2];
   Leg& rest = orbit.shape.legs.back();
   rest.ending = Ending::guard;
+  const auto of_stop = [&](const TestValue& test) {
+    const mode::SliderRow* slider = frame.slider(test.kind, test.contact);
+    if (slider != nullptr)
+      return frame.in_step(frame.stops[static_cast<std::size_t>(rest.contact)].own, slider->pair.own);
+    const bool of_contact = test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press;
+    return of_contact && test.contact == rest.contact;
+  };
   const auto of_burst = [&](const TestValue& test) {
-    const bool in_burst = test.leg + 1 == orbit.legs() || orbit.shape.legs[test.leg] == flight;
-    return in_burst && test.contact == rest.contact &&
-           (test.kind == mode::GuardKind::gap || test.kind == mode::GuardKind::press);
+    const bool lets_go = test.leg == 0 && test.at == 0.0;
+    return of_stop(test) && (lets_go || test.leg + 1 == orbit.legs() || orbit.shape.legs[test.leg] == flight);
   };
   for (const TestValue& test : test_values(ModeSet(problem.family(), orbit.values), orbit))
     if (!of_burst(test) && !(test.value > 0.0)) return false;

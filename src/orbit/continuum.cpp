@@ -150,10 +150,14 @@ bool leads_along(const Problem& problem, const Orbit& orbit, const Null& null, I
 
 int continuum(const Problem& problem, const Orbit& orbit, const std::vector<std::complex<double>>& multipliers) {
   constexpr double from_one = 1e-4;  // a double multiplier 1, as of a conservative model, is known to half the digits
-  if (ranges::none_of(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < from_one; })) return 0;
+  // Each dimension has a multiplier 1. To look for more costs much where many short legs make the equations singular.
+  const auto most =
+      ranges::count_if(multipliers, [](std::complex<double> mu) { return std::abs(mu - 1.0) < from_one; });
+  if (most == 0) return 0;
   int dimension = 0;
   try {
     dimension = kept_numbers(problem, orbit);
+    if (dimension >= most) return dimension;
     const Null null = null_vectors_at(problem, orbit);
     for (Index j = 0; j < null.right.cols(); ++j) dimension += leads_along(problem, orbit, null, j) ? 1 : 0;
   } catch (const InputError&) {

@@ -49,6 +49,23 @@ TEST(OnsetOrbit, IsTheSameFromTheCascade) {
   EXPECT_NEAR(found->orbit.parameter(), onset, found->error + 2e-13);
 }
 
+/// The flights of the burst leave the slider where the first impact has drawn it.
+TEST(OnsetOrbit, BesideASliderIsWhereTheBranchSays) {
+  const auto definition = ModelDefinition::parse(
+      "name = 'm'\nomega = 0.75\n[parameters]\nload = 0.222\n[[coordinate]]\nname = 'x'\nmass = 1\n"
+      "[[spring]]\nbetween = ['x', 'ground']\nstiffness = 1\n[[damper]]\nbetween = ['x', 'ground']\ncoefficient = 0.2\n"
+      "[[force]]\non = 'x'\namplitude = 1\n[[force]]\non = 'x'\namplitude = 'load'\nharmonic = 0\n"
+      "[[jenkins]]\nname = 'j'\nbetween = ['x', 'ground']\nstiffness = 1\nlimit = 0.2\n"
+      "[[stop]]\nname = 'wall'\nbetween = ['x', 'ground']\nclearance = 0.2\nrestitution = 0.5\n",
+      "m.toml");
+  const auto problem = orbit::pose(definition.family({"load"}), {0.222});
+  const auto first = orbit::settle(*problem, System(definition.build()), definition.start(), {.transient = 100}).orbit;
+  ASSERT_TRUE(first && first->chatter);
+  const auto found = orbit::onset_orbit(*problem, first->orbit, 0);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->orbit.parameter(), 0.219815648, 3e-6);  // of the cascade's last grazes
+}
+
 /// What rounding leaves is in the stated error, however small the parameter: 1.459 + offset is the onset for r = 0.6,
 /// by 40 digits.
 TEST(OnsetOrbit, IsAsWellKnownAsItSaysWhereTheParameterIsSmall) {

@@ -255,7 +255,7 @@ def test_diagram_of_statistics_has_every_number_of_the_program(program):
     assert list(found.to_pandas().columns) == ["omega", "direction", *y.split(",")]
 
 
-@pytest.mark.parametrize(("model", "at", "y"), [("coulomb-oscillator", "", "x,F_friction"), ("vibro-impact", "", "x1,w"), ("vibro-impact", "stick", "x1"),
+@pytest.mark.parametrize(("model", "at", "y"), [("coulomb-oscillator", "", "x,F_friction"), ("vibro-impact", "", "x1,w"), ("vibro-impact", "slip+", "x1"),
                                                 ("vibro-impact", "period", "v1,kinetic_energy")])
 def test_diagram_of_values_at_instants_has_every_number_of_the_program(program, model, at, y):
     words = ["--sweep", "omega=0.5:1.5:5", "--direction", "both", "--y", y, "--impacts", 7, "--transient", 100]

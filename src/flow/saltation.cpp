@@ -73,16 +73,16 @@ void Passage::carry(Eigen::MatrixXd& tangents) {
       const double slope = guard.row.dot(f_minus);
       Eigen::RowVectorXd dt = Eigen::RowVectorXd::Zero(tangents.cols());
       if (slope != 0.0) dt = -(guard.row.head(2 * d) * tangents) / slope;
-      Eigen::VectorXd change = f_minus.head(2 * d), terms = minus.cwiseAbs() * X_.cwiseAbs();
+      Eigen::VectorXd terms = minus.cwiseAbs() * X_.cwiseAbs();
+      tangents += f_minus.head(2 * d) * dt;
       for (const Motion::Strike& strike : parts[k].strikes) {
         apply(strike, true, tangents.bottomRows(d));
-        apply(strike, true, change.tail(d));
         apply(strike, false, X_.segment(d, d));
       }
       if (last) X_ = Eigen::Map<const Eigen::VectorXd>(engine_.extended().data(), before_.size());
-      change -= (plus * X_).head(2 * d);
+      const Eigen::VectorXd f_plus = plus * X_;
       terms += plus.cwiseAbs() * X_.cwiseAbs();
-      tangents += change * dt;
+      tangents -= f_plus.head(2 * d) * dt;
       rounding_ += 0x1p-50 * terms.head(2 * d) * dt.cwiseAbs();
     }
     states = parts[k].after;

@@ -318,6 +318,7 @@ TEST(OneInstant, AStopWithAWeakDamperLetsGoOnce) {
 /// Bodies at rest at their walls, which a load lets go for a short flight.
 Model hopping(int bodies, double load) {
   Model model;
+  model.omega = 1.0;
   for (int i = 0; i < bodies; ++i) {
     model.coordinates.push_back({"x" + std::to_string(i), 1.0});
     model.forces.push_back({i, 0, 1.0, 0.0});

@@ -94,6 +94,7 @@ std::optional<Edited> twin_machine(const Definition& file, campaign::Random&) {
 std::optional<Edited> joined_twin(const Definition& file, campaign::Random& random) {
   std::optional<Edited> edited = twin_machine(file, random);
   edited->rule.joined = true;
+  edited->rule.more_directions = coordinates(file);     // of twins that are free only one translation is left
   const double stiffness = random.decades(-3.0, -2.0);  // such a spring hardly makes a stable motion unstable
   for (int i = 0; i < coordinates(file); ++i) {
     Part spring;
